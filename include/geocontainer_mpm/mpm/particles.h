@@ -1,0 +1,62 @@
+#pragma once
+/// Material points as a structure of arrays.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geocontainer_mpm/material/law.h"
+#include "geocontainer_mpm/mpm/types.h"
+
+namespace geocontainer_mpm::mpm {
+
+using Column = std::vector<double>;
+
+/// One set of material points: the particles of a body, or the nodes of a sheet (which carry no stress).
+template <int Dim>
+struct Particles {
+  static constexpr int stress_size = material::stress_size<Dim>;
+
+  std::array<Column, Dim> position;         ///< m
+  std::array<Column, Dim> velocity;         ///< m/s, at mid-step (leapfrog)
+  std::array<Column, Dim * Dim> affine;     ///< APIC velocity matrix C, row-major, 1/s
+  std::array<Column, Dim * Dim> gradient;   ///< velocity gradient of the last step, row-major dv_i/dx_j, 1/s
+  std::array<Column, stress_size> stress;   ///< Cauchy, see material/law.h for the order, Pa
+  std::array<Column, Dim> force;            ///< external force of the present step (sheets), N (N/m in plane strain)
+  Column mass;                              ///< inertia, kg (kg/m)
+  Column weight_mass;                       ///< what gravity pulls, kg (kg/m); differs under mass scaling
+  Column volume, initial_volume;            ///< m^3 (m^2)
+  Column separated_strain, elastic_energy, dissipated;  ///< see material::Batch
+  std::vector<std::uint32_t> id;            ///< index at creation: sorting reorders the arrays
+
+  std::size_t size() const { return mass.size(); }
+  /// All columns to `count` zeros, ids 0, 1, ...
+  void resize(std::size_t count);
+  /// Row i of the result is row `order[i]` of today.
+  void permute(const std::vector<std::uint32_t>& order);
+  material::Batch<Dim> batch();
+  /// Calls `visit(column)` for every double column: state digests, checkpoints, permutation.
+  template <class Visitor>
+  void for_each_column(Visitor&& visit)
+  {
+    const auto all = [&](auto& columns) {
+      for (auto& column : columns)
+        visit(column);
+    };
+    all(position);
+    all(velocity);
+    all(affine);
+    all(gradient);
+    all(stress);
+    all(force);
+    for (Column* column : { &mass, &weight_mass, &volume, &initial_volume, &separated_strain, &elastic_energy, &dissipated })
+      visit(*column);
+  }
+
+private:
+  Column scratch_;  ///< reused by permute, so that sorting while stepping does not allocate
+  std::vector<std::uint32_t> id_scratch_;
+};
+
+}  // namespace geocontainer_mpm::mpm

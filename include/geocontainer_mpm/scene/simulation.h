@@ -1,0 +1,95 @@
+#pragma once
+/// The driver: one scene, one opening signal, stepped. The ROS node and the `simulate` program use this class and
+/// nothing else, so that a replay and an offline run agree bit for bit.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "geocontainer_mpm/barge/opening_signal.h"
+#include "geocontainer_mpm/scene/description.h"
+#include "geocontainer_mpm/scene/frame.h"
+
+namespace geocontainer_mpm::scene {
+
+/// What one call of advance() did.
+enum class Advance {
+  stepped,      ///< one or more steps or a jump over rest; call again
+  frame_due,    ///< the same, and an output instant was reached: frame() is the one to keep
+  waiting,      ///< the opening is not known far enough ahead yet: add samples, or tell the clock
+  finished,     ///< end_s is reached, or everything rests for good after the last sample
+  stopped       ///< the solver had to stop; see failure()
+};
+
+/// What was not computed because the scene did not need it.
+struct SkippedCounts {
+  double resting_time_s = 0.0;          ///< simulated time jumped over at rest
+  std::uint64_t contact_searches = 0;   ///< steps x boundaries in which no contact was looked for: bodies apart
+  std::uint64_t grid_nodes = 0;         ///< nodes outside the active window, summed over steps
+  std::uint64_t membrane_passes = 0;    ///< steps in which no segment was taut
+};
+
+/// Wall-clock seconds by stage, summed over steps.
+struct StageTimes {
+  double p2g_s = 0.0, forces_s = 0.0, contact_s = 0.0, membrane_s = 0.0, g2p_s = 0.0, material_s = 0.0;
+};
+
+struct RunCounters {
+  std::uint64_t particles = 0;
+  std::uint64_t steps = 0;
+  double simulated_time_s = 0.0;
+  double min_dt_s = 0.0, max_dt_s = 0.0;
+  double momentum_error = 0.0;  ///< |momentum change - impulse of all forces| over the impulse that changed hands
+  SkippedCounts skipped;
+  StageTimes stages;
+};
+
+/// Why a run had to stop: what, where, when.
+struct Failure {
+  std::string reason;      ///< one sentence: cause, body, particle
+  Vec2 position_m = Vec2::Zero();
+  double time_s = 0.0;
+};
+
+class Simulation {
+public:
+  /// Builds the scene (and settles it where bodies ask for gravity). Throws InputError for a bad scene or
+  /// threads < 1.
+  Simulation(const SceneDescription& scene, int threads);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// The opening history this run follows; feed it samples, tell it the clock or finish() it between advance() calls.
+  /// A scene without a hull, or one run on its own opening table, has a finished signal from the start of
+  /// use_scene_opening().
+  barge::OpeningSignal& opening();
+  const barge::OpeningSignal& opening() const;
+  /// Follows the scene's own opening_table (or stays closed) instead of samples.
+  void use_scene_opening();
+
+  /// Does at most `max_steps` steps, never past the known opening; returns early at an output instant.
+  Advance advance(int max_steps = 64);
+
+  /// Back to the state after construction, bit for bit, with an empty opening signal.
+  void reset();
+
+  const SceneDescription& scene() const;
+  double time_s() const;
+  Frame frame() const;           ///< snapshot of the present state
+  StatusFrame status() const;    ///< the cheap part of frame()
+  EnergyFrame energy() const;
+  RunCounters counters() const;
+  const Failure& failure() const;  ///< meaningful after Advance::stopped
+  /// 64-bit digest of the whole mechanical state (positions, velocities, stresses, tensions, time): equal bits, equal digest.
+  std::uint64_t digest() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The summary of `simulate --summary` as JSON text (docs/how-to lists the keys). `wall_time_s` is the caller's.
+std::string summary_json(const Simulation& simulation, double wall_time_s, int threads);
+
+}  // namespace geocontainer_mpm::scene

@@ -1,0 +1,32 @@
+#include "linear_elastic.h"
+
+namespace geocontainer_mpm::material {
+
+template <int Dim>
+void LinearElastic<Dim>::update(const Batch<Dim>& batch, double dt, std::size_t begin, std::size_t end) const
+{
+  const Elasticity elasticity = elasticity_;
+  const Access<Dim> access(batch);
+  double* const __restrict volume = batch.volume;
+  double* const __restrict energy = batch.elastic_energy;
+#pragma omp simd
+  for (std::size_t p = begin; p < end; ++p) {
+    const Increment<Dim> step = access.increment(p, dt);
+    const Symmetric<Dim> stress = add(rotate(access.stress(p), step), 1.0, elastic_stress(elasticity, step.strain));
+    const double new_volume = volume[p] * (1.0 + step.volume_change);
+    access.set_stress(p, stress);
+    volume[p] = new_volume;
+    energy[p] = new_volume * energy_density(elasticity, stress);
+  }
+}
+
+template <int Dim>
+void LinearElastic<Dim>::initialise(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const
+{
+  initialise_energy(elasticity_, batch, begin, end);
+}
+
+template class LinearElastic<2>;
+template class LinearElastic<3>;
+
+}  // namespace geocontainer_mpm::material

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "batch_access.h"
+
+namespace geocontainer_mpm::material {
+
+/// Hypoelasticity: the Cauchy stress turns with the material and grows by lambda tr(de) I + 2 G de, with the increments
+/// of increment.h. For a stretch without rotation it adds up to sigma = C : ln(stretch), to second order in the step.
+/// Never dissipates, never separates.
+template <int Dim>
+class LinearElastic final : public Law<Dim> {
+public:
+  explicit LinearElastic(const Parameters& parameters) : elasticity_(parameters) {}
+  void update(const Batch<Dim>& batch, double dt, std::size_t begin, std::size_t end) const override;
+  void initialise(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const override;
+
+private:
+  Elasticity elasticity_;
+};
+
+}  // namespace geocontainer_mpm::material

@@ -1,0 +1,48 @@
+#include "geocontainer_mpm/mpm/particles.h"
+
+#include <numeric>
+
+namespace geocontainer_mpm::mpm {
+
+template <int Dim>
+void Particles<Dim>::resize(std::size_t count)
+{
+  for_each_column([count](Column& column) { column.assign(count, 0.0); });
+  id.resize(count);
+  std::iota(id.begin(), id.end(), 0U);
+}
+
+template <int Dim>
+void Particles<Dim>::permute(const std::vector<std::uint32_t>& order)
+{
+  scratch_.resize(size());
+  id_scratch_.resize(size());
+  for_each_column([&](Column& column) {
+    for (std::size_t i = 0; i < order.size(); ++i)
+      scratch_[i] = column[order[i]];
+    column.swap(scratch_);
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    id_scratch_[i] = id[order[i]];
+  id.swap(id_scratch_);
+}
+
+template <int Dim>
+material::Batch<Dim> Particles<Dim>::batch()
+{
+  material::Batch<Dim> view;
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    view.velocity_gradient[k] = gradient[k].data();
+  for (std::size_t k = 0; k < stress.size(); ++k)
+    view.stress[k] = stress[k].data();
+  view.volume = volume.data();
+  view.separated_strain = separated_strain.data();
+  view.elastic_energy = elastic_energy.data();
+  view.dissipated = dissipated.data();
+  return view;
+}
+
+template struct Particles<2>;
+template struct Particles<3>;
+
+}  // namespace geocontainer_mpm::mpm

@@ -1,0 +1,146 @@
+#include "report.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "geocontainer_mpm/error.h"
+
+namespace geocontainer_mpm::program {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& path, const std::string& why)
+{
+  throw InputError("command line", option, path, "cannot be written: " + why);
+}
+
+fs::path folder_of(const fs::path& path)
+{
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Returns errno, 0 for success.
+int write_all(int file, const std::string& text)
+{
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(file, text.data() + done, text.size() - done);
+    if (count < 0 && errno != EINTR)
+      return errno;
+    done += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  return 0;
+}
+
+/// A value with its unit, or a dash where the summary has none.
+std::string quantity(const Json& value, double scale, int decimals, const char* unit)
+{
+  if (!value.is_number())
+    return "-";
+  return fmt::format("{:.{}f} {}", value.get<double>() * scale, decimals, unit);
+}
+
+std::string place(const Json& position)
+{
+  if (!position.is_array())
+    return "-";
+  return fmt::format("y {:.2f} m, z {:.2f} m", position.at(0).get<double>(), position.at(1).get<double>());
+}
+
+std::string rejected(const Json& counts)
+{
+  std::string text;
+  for (const auto& [verdict, count] : counts.items())
+    if (count.get<std::uint64_t>() > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count.get<std::uint64_t>(), verdict);
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+void check_output(const std::string& option, const std::string& path)
+{
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    refuse(option, path, "is a directory");
+  const fs::path folder = folder_of(path);
+  if (!fs::is_directory(folder, ignored))
+    refuse(option, path, "there is no directory " + folder.string());
+  const bool exists = fs::exists(path, ignored);
+  if (::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0)
+    refuse(option, path, std::strerror(errno));
+}
+
+void write_summary(const std::string& path, const std::string& text)
+{
+  std::error_code ignored;
+  // A pipe or terminal is not to be replaced by a file.
+  const bool replace = !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
+  const fs::path target = replace ? fs::weakly_canonical(path, ignored) : fs::path(path);
+  const std::string written = replace ? fmt::format("{}.{}.part", target.string(), ::getpid()) : target.string();
+  const int file = ::open(written.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (replace ? O_TRUNC : 0), 0666);
+  if (file < 0)
+    refuse("--summary", path, std::strerror(errno));
+  int error = write_all(file, text);
+  if (error == 0 && replace && ::fsync(file) != 0)
+    error = errno;
+  if (::close(file) != 0 && error == 0)
+    error = errno;
+  if (error == 0 && replace && std::rename(written.c_str(), target.c_str()) != 0)
+    error = errno;
+  if (error == 0)
+    return;
+  if (replace)
+    ::unlink(written.c_str());
+  refuse("--summary", path, std::strerror(error));
+}
+
+std::string table(const Json& s)
+{
+  std::string text;
+  const auto row = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<24}{}\n", name, value);
+  };
+  text += fmt::format("{}: {}\n", s.at("scene").get<std::string>(), s.at("outcome").get<std::string>());
+  if (!s.value("completed", true))  // the node's summary is of a moment and does not say
+    row("not completed", s.at("why").get<std::string>());
+  row("release time", quantity(s.at("release_time_s"), 1.0, 2, "s"));
+  if (s.at("peak_tension_n_per_m").is_number()) {
+    row("peak tension", quantity(s.at("peak_tension_n_per_m"), 1e-3, 2, "kN/m"));
+    row("  at", quantity(s.at("peak_tension_time_s"), 1.0, 2, "s") + ", " + place(s.at("peak_tension_position_m")));
+    row("  of seam strength", quantity(s.at("peak_utilisation"), 100.0, 1, "%"));
+    row("residual tension", quantity(s.at("residual_tension_n_per_m"), 1e-3, 2, "kN/m"));
+    row("largest elongation", quantity(s.at("geotextile_elongation_max"), 100.0, 2, "%"));
+  }
+  row("centroid", place(s.at("container_centroid_m")));
+  row("width, height",
+      quantity(s.at("container_width_m"), 1.0, 2, "m, ") + quantity(s.at("container_height_m"), 1.0, 2, "m"));
+  row("soil volume change", quantity(s.at("soil_volume_change"), 100.0, 2, "%"));
+  row("energy balance error", quantity(s.at("energy").at("relative_balance_error"), 100.0, 2, "%"));
+  row("momentum error", fmt::format("{:.2e}", s.at("momentum_error").get<double>()));
+  row("particles, steps",
+      fmt::format("{}, {}", s.at("particles").get<std::uint64_t>(), s.at("steps").get<std::uint64_t>()));
+  row("time step", fmt::format("{:.2e} to {:.2e} s", s.at("min_dt_s").get<double>(), s.at("max_dt_s").get<double>()));
+  row("simulated, wall time", quantity(s.at("simulated_time_s"), 1.0, 2, "s, ") +
+                                  quantity(s.at("wall_time_s"), 1.0, 2, "s, ") +
+                                  quantity(s.at("real_time_factor"), 1.0, 2, "x real time") +
+                                  fmt::format(", {} threads", s.at("threads").get<int>()));
+  row("not computed", quantity(s.at("skipped").at("resting_time_s"), 1.0, 2, "s at rest, ") +
+                          fmt::format("{} contact searches, {} membrane passes",
+                                      s.at("skipped").at("contact_searches").get<std::uint64_t>(),
+                                      s.at("skipped").at("membrane_passes").get<std::uint64_t>()));
+  row("opening samples",
+      fmt::format("{} accepted, rejected: {}; {} gaps", s.at("accepted_samples").get<std::uint64_t>(),
+                  rejected(s.at("rejected_samples")), s.at("gaps").size()));
+  row("digest of the state", s.at("digest").get<std::string>());
+  return text;
+}
+
+}  // namespace geocontainer_mpm::program

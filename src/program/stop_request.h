@@ -1,0 +1,27 @@
+#pragma once
+/// SIGINT and SIGTERM ask a run to stop after its current step. A second one ends the process at once.
+
+#include <csignal>
+
+namespace geocontainer_mpm::program {
+
+class StopRequest {
+public:
+  StopRequest()
+  {
+    struct sigaction action = {};
+    action.sa_handler = [](int signal) { received = signal; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+  }
+
+  /// Number of the signal, 0 while there was none.
+  int signal() const { return received; }
+
+private:
+  static inline volatile std::sig_atomic_t received = 0;  ///< a handler can reach nothing but a static
+};
+
+}  // namespace geocontainer_mpm::program

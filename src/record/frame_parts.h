@@ -1,0 +1,45 @@
+#pragma once
+/// How the named parts of a frame (bodies, sheets, boundaries) are laid end to end in shared arrays. Used by the HDF5
+/// file and by its XDMF sidecar, so that the two agree.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geocontainer_mpm/scene/frame.h"
+
+namespace geocontainer_mpm::record {
+
+/// Rows [first, first + count) of the shared arrays belong to the part of that name.
+struct Parts {
+  std::vector<std::string> name;
+  std::vector<std::int64_t> first;
+  std::vector<std::int64_t> count;
+  std::int64_t total = 0;
+};
+
+template <typename Part>
+Parts parts_of(const std::vector<const Part*>& parts, std::vector<Vec2> Part::*field)
+{
+  Parts result;
+  for (const Part* part : parts) {
+    result.name.push_back(part->name);
+    result.first.push_back(result.total);
+    result.count.push_back(static_cast<std::int64_t>((part->*field).size()));
+    result.total += result.count.back();
+  }
+  return result;
+}
+
+/// The parts of a frame that hold anything.
+std::vector<const scene::SoilFrame*> soil_of(const scene::Frame& frame);
+std::vector<const scene::GeotextileFrame*> geotextile_of(const scene::Frame& frame);
+std::vector<const scene::BoundaryFrame*> hull_of(const scene::Frame& frame);      ///< the two halves, which move
+std::vector<const scene::BoundaryFrame*> surfaces_of(const scene::Frame& frame);  ///< the bed and what else stands
+
+/// For each row the index of its part.
+std::vector<std::int32_t> part_of_row(const Parts& parts);
+/// Pairs of rows joined by a straight piece: around each part when `closed`, else along it.
+std::vector<std::int32_t> segments_of(const Parts& parts, bool closed);
+
+}  // namespace geocontainer_mpm::record

@@ -1,0 +1,288 @@
+#include "frame_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "frame_parts.h"
+
+namespace geocontainer_mpm::record {
+
+namespace {
+
+Handle dataspace(std::initializer_list<hsize_t> extent)
+{
+  if (extent.size() == 0)
+    return { H5Screate(H5S_SCALAR), H5Sclose, "cannot describe a scalar" };
+  return { H5Screate_simple(static_cast<int>(extent.size()), extent.begin(), nullptr), H5Sclose,
+           "cannot describe an array" };
+}
+
+Handle text_type(std::size_t length)
+{
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "cannot describe a text");
+  checked(H5Tset_size(type, std::max<std::size_t>(length, 1)), "cannot describe a text");
+  checked(H5Tset_strpad(type, H5T_STR_NULLPAD), "cannot describe a text");
+  checked(H5Tset_cset(type, H5T_CSET_UTF8), "cannot describe a text");
+  return type;
+}
+
+void write_attribute(hid_t object, const char* name, hid_t type, hid_t memory_type, hid_t space, const void* data)
+{
+  const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "cannot create an attribute");
+  checked(H5Awrite(attribute, memory_type, data), "cannot write an attribute");
+}
+
+void write_number(hid_t object, const char* name, double value)
+{
+  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dataspace({}), &value);
+}
+
+void write_count(hid_t object, const char* name, std::int64_t value)
+{
+  write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace({}), &value);
+}
+
+void write_point(hid_t object, const char* name, const Vec2& point)
+{
+  const std::array<double, 3> row{ 0.0, point[0], point[1] };
+  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dataspace({ 3 }), row.data());
+}
+
+void write_numbers(hid_t object, const char* name, const std::vector<double>& values)
+{
+  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dataspace({ values.size() }), values.data());
+}
+
+void write_texts(hid_t object, const char* name, const std::vector<std::string>& texts)
+{
+  std::size_t width = 1;
+  for (const std::string& text : texts)
+    width = std::max(width, text.size());
+  std::string packed(width * texts.size(), '\0');
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    texts[i].copy(&packed[i * width], width);
+  const Handle type = text_type(width);
+  write_attribute(object, name, type, type, dataspace({ texts.size() }), packed.data());
+}
+
+/// Which rows of a group's arrays belong to which of its named parts.
+void write_parts(hid_t group, const Parts& parts)
+{
+  write_texts(group, "name", parts.name);
+  const auto extent = { static_cast<hsize_t>(parts.name.size()) };
+  write_attribute(group, "first", H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace(extent), parts.first.data());
+  write_attribute(group, "count", H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace(extent), parts.count.data());
+}
+
+Handle subgroup(hid_t parent, const char* name)
+{
+  return { H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "cannot create a group" };
+}
+
+/// Writes one array with its unit. Only `time` is `compact`: one number is not worth a place of its own.
+void write_array(hid_t parent, const char* name, hid_t type, hid_t memory_type, std::initializer_list<hsize_t> extent,
+                 const void* data, const char* units, bool compact = false)
+{
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "cannot describe a data set");
+  checked(H5Pset_layout(properties, compact ? H5D_COMPACT : H5D_CONTIGUOUS), "cannot describe a data set");
+  checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), "cannot describe a data set");
+  const Handle set(H5Dcreate2(parent, name, type, dataspace(extent), H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
+                   "cannot create a data set");
+  checked(H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "cannot write a data set");
+  write_text_attribute(set, "units", units);
+}
+
+/// Rows of three: the barge frame's x (zero in the plane-strain slice), y and z, so that viewers place it right.
+template <typename Part>
+std::vector<double> rows_of_three(const std::vector<const Part*>& parts, std::vector<Vec2> Part::*field)
+{
+  std::vector<double> rows;
+  for (const Part* part : parts)
+    for (const Vec2& point : part->*field)
+      rows.insert(rows.end(), { 0.0, point[0], point[1] });
+  return rows;
+}
+
+template <typename Part>
+std::vector<double> joined(const std::vector<const Part*>& parts, std::vector<double> Part::*field)
+{
+  std::vector<double> all;
+  for (const Part* part : parts)
+    all.insert(all.end(), (part->*field).begin(), (part->*field).end());
+  return all;
+}
+
+void write_vectors(hid_t group, const char* name, hid_t type, const std::vector<double>& rows, const char* units)
+{
+  write_array(group, name, type, H5T_NATIVE_DOUBLE, { rows.size() / 3, 3 }, rows.data(), units);
+}
+
+void write_scalars(hid_t group, const char* name, const std::vector<double>& values, const char* units)
+{
+  write_array(group, name, H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, { values.size() }, values.data(), units);
+}
+
+void write_indices(hid_t group, const char* name, const std::vector<std::int32_t>& values, hsize_t columns)
+{
+  if (columns == 1)
+    write_array(group, name, H5T_STD_I32LE, H5T_NATIVE_INT32, { values.size() }, values.data(), "1");
+  else
+    write_array(group, name, H5T_STD_I32LE, H5T_NATIVE_INT32, { values.size() / columns, columns }, values.data(), "1");
+}
+
+void write_soil(hid_t frame_group, const scene::Frame& frame)
+{
+  const auto bodies = soil_of(frame);
+  if (bodies.empty())
+    return;
+  const Parts parts = parts_of(bodies, &scene::SoilFrame::position);
+  const Handle group = subgroup(frame_group, "soil");
+  write_parts(group, parts);
+  write_vectors(group, "position", H5T_IEEE_F64LE, rows_of_three(bodies, &scene::SoilFrame::position), "m");
+  write_vectors(group, "velocity", H5T_IEEE_F32LE, rows_of_three(bodies, &scene::SoilFrame::velocity), "m/s");
+
+  // XDMF's and VTK's order of a symmetric tensor: xx xy xz yy yz zz; x is out of plane.
+  std::vector<double> stress;
+  for (const scene::SoilFrame* body : bodies)
+    for (const auto& [yy, zz, yz, xx] : body->stress)
+      stress.insert(stress.end(), { xx, 0.0, 0.0, yy, yz, zz });
+  write_array(group, "stress", H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, { stress.size() / 6, 6 }, stress.data(), "Pa");
+  write_scalars(group, "volume", joined(bodies, &scene::SoilFrame::volume), "m^2");
+  write_indices(group, "body", part_of_row(parts), 1);
+}
+
+void write_geotextile(hid_t frame_group, const scene::Frame& frame)
+{
+  const auto sheets = geotextile_of(frame);
+  if (sheets.empty())
+    return;
+  const Parts parts = parts_of(sheets, &scene::GeotextileFrame::node);
+  const Handle group = subgroup(frame_group, "geotextile");
+  write_parts(group, parts);
+  std::vector<double> gauge_length, strength, seam_strength;
+  for (const scene::GeotextileFrame* sheet : sheets) {
+    gauge_length.push_back(sheet->gauge_length_m);
+    strength.push_back(sheet->strength_n_per_m);
+    seam_strength.push_back(sheet->seam_strength_n_per_m);
+  }
+  write_numbers(group, "gauge_length_m", gauge_length);
+  write_numbers(group, "strength_n_per_m", strength);
+  write_numbers(group, "seam_strength_n_per_m", seam_strength);
+  write_vectors(group, "node", H5T_IEEE_F64LE, rows_of_three(sheets, &scene::GeotextileFrame::node), "m");
+  write_vectors(group, "velocity", H5T_IEEE_F32LE, rows_of_three(sheets, &scene::GeotextileFrame::velocity), "m/s");
+  write_scalars(group, "tension", joined(sheets, &scene::GeotextileFrame::tension), "N/m");
+  write_scalars(group, "gauge_tension", joined(sheets, &scene::GeotextileFrame::gauge_tension), "N/m");
+  write_indices(group, "connectivity", segments_of(parts, true), 2);
+  write_indices(group, "sheet", part_of_row(parts), 1);
+}
+
+void write_boundary(hid_t frame_group, const char* name, const std::vector<const scene::BoundaryFrame*>& boundaries)
+{
+  if (boundaries.empty())
+    return;
+  const Parts parts = parts_of(boundaries, &scene::BoundaryFrame::position);
+  const Handle group = subgroup(frame_group, name);
+  write_parts(group, parts);
+  std::vector<double> angle, force;
+  for (const scene::BoundaryFrame* boundary : boundaries) {
+    angle.push_back(boundary->angle_rad);
+    force.insert(force.end(), { 0.0, boundary->force_n_per_m[0], boundary->force_n_per_m[1] });
+  }
+  write_vectors(group, "position", H5T_IEEE_F64LE, rows_of_three(boundaries, &scene::BoundaryFrame::position), "m");
+  write_indices(group, "connectivity", segments_of(parts, false), 2);
+  write_array(group, "angle", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, { angle.size() }, angle.data(), "rad");
+  write_vectors(group, "force", H5T_IEEE_F64LE, force, "N/m");
+}
+
+void write_energy(hid_t frame_group, const scene::EnergyFrame& energy)
+{
+  const Handle group = subgroup(frame_group, "energy");
+  write_number(group, "kinetic_j_per_m", energy.kinetic);
+  write_number(group, "elastic_j_per_m", energy.elastic);
+  write_number(group, "potential_j_per_m", energy.potential);
+  write_number(group, "dissipated_j_per_m", energy.dissipated);
+  write_number(group, "dissipated_plastic_j_per_m", energy.dissipated_plastic);
+  write_number(group, "dissipated_contact_j_per_m", energy.dissipated_contact);
+  write_number(group, "dissipated_transfer_j_per_m", energy.dissipated_transfer);
+  write_number(group, "work_in_j_per_m", energy.work_in);
+  write_number(group, "relative_balance_error", energy.relative_balance_error);
+}
+
+void write_status(hid_t frame_group, const scene::StatusFrame& status)
+{
+  const Handle group = subgroup(frame_group, "status");
+  write_text_attribute(group, "outcome", scene::to_string(status.outcome));
+  write_number(group, "release_time_s", status.release_time_s);
+  write_count(group, "resting", status.resting ? 1 : 0);
+  write_number(group, "peak_tension_n_per_m", status.peak_tension_n_per_m);
+  write_number(group, "peak_tension_time_s", status.peak_tension_time_s);
+  write_point(group, "peak_tension_position_m", status.peak_tension_position_m);
+  write_number(group, "current_tension_n_per_m", status.current_tension_n_per_m);
+  write_number(group, "elongation_max", status.elongation_max);
+  write_point(group, "centroid_m", status.centroid_m);
+  write_number(group, "width_m", status.width_m);
+  write_number(group, "height_m", status.height_m);
+  write_number(group, "soil_volume_m2", status.soil_volume_m2);
+  write_number(group, "soil_volume_initial_m2", status.soil_volume_initial_m2);
+}
+
+}  // namespace
+
+void write_text_attribute(hid_t object, const char* name, const std::string& text)
+{
+  const Handle type = text_type(text.size());
+  write_attribute(object, name, type, type, dataspace({}), text.c_str());
+}
+
+void write_text(hid_t parent, const char* name, const std::string& text)
+{
+  const Handle type = text_type(text.size());
+  const Handle set(H5Dcreate2(parent, name, type, dataspace({}), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                   "cannot create a data set");
+  checked(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "cannot write a data set");
+}
+
+std::size_t room_for(const scene::Frame& frame)
+{
+  // Per row at most three doubles, nine floats and three indices; the groups' own data is about 20 kB.
+  constexpr std::size_t row_bytes = 3 * 8 + 9 * 4 + 3 * 4 + 16;
+  constexpr std::size_t part_bytes = 256, group_bytes = 48 * 1024;
+  std::size_t rows = 0, names = 0;
+  const auto add = [&](std::size_t size, const std::string& name) {
+    rows += size;
+    names = std::max(names, name.size());
+  };
+  for (const scene::SoilFrame& body : frame.soil)
+    add(body.position.size(), body.name);
+  for (const scene::GeotextileFrame& sheet : frame.geotextile)
+    add(sheet.node.size(), sheet.name);
+  for (const scene::BoundaryFrame& boundary : frame.boundary)
+    add(boundary.position.size(), boundary.name);
+  const std::size_t parts = frame.soil.size() + frame.geotextile.size() + frame.boundary.size();
+  return group_bytes + rows * row_bytes + parts * (part_bytes + names);
+}
+
+Handle write_unlinked_frame(hid_t file, const scene::Frame& frame)
+{
+  Handle group(H5Gcreate_anon(file, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "cannot create a frame");
+  write_number(group, "time_s", frame.time_s);
+  write_count(group, "stamp_ns", frame.stamp_ns);
+  write_count(group, "step", static_cast<std::int64_t>(frame.step));
+  write_number(group, "dt_s", frame.dt_s);
+  write_number(group, "port_rad", frame.opening.port_rad);
+  write_number(group, "starboard_rad", frame.opening.starboard_rad);
+  write_array(group, "time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &frame.time_s, "s", true);
+  write_soil(group, frame);
+  write_geotextile(group, frame);
+  write_boundary(group, "hull", hull_of(frame));
+  write_boundary(group, "surface", surfaces_of(frame));
+  write_energy(group, frame.energy);
+  write_status(group, frame.status);
+  return group;
+}
+
+}  // namespace geocontainer_mpm::record

@@ -1,0 +1,159 @@
+#include "geocontainer_mpm/scene/release_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+/// A hull counts as open once its slot is wider than this, m: more than play and sensor noise make of a closed one.
+constexpr double open_slot_m = 0.05;
+
+double soil_volume(const Model& model)
+{
+  double volume = 0.0;
+  for (const Body& body : model.bodies())
+    for (double v : body.particles.volume)
+      volume += v;
+  return volume;
+}
+
+}  // namespace
+
+ReleaseWatch::ReleaseWatch(const SceneDescription& scene) : hung_up_after_s_(scene.outcome.hung_up_after_s)
+{
+  if (scene.hull && !scene.geotextiles.empty()) {
+    hull_.emplace(scene.hull->hinge_m, scene.hull->port_section_m, "hull");
+    outcome_ = Outcome::waiting;
+  }
+}
+
+void ReleaseWatch::observe(const Model& model, double time_s, const barge::OpeningAngles& opening, bool resting,
+                           double still_since_s)
+{
+  if (initial_volume_ < 0.0)
+    initial_volume_ = soil_volume(model);
+  current_ = 0.0;
+  for (const EnclosingSheet& enclosing : model.sheets()) {
+    const geotextile::Sheet& sheet = enclosing.sheet;
+    sheet.gauge_tension(gauge_);
+    const auto largest = std::max_element(gauge_.begin(), gauge_.end());
+    current_ = std::max(current_, *largest);
+    elongation_ = std::max(elongation_, sheet.largest_strain());
+    if (*largest > peak_) {
+      const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
+      peak_ = *largest;
+      peak_time_s_ = time_s;
+      peak_position_ = 0.5 * (sheet.node(segment) + sheet.node((segment + 1) % sheet.segments()));
+    }
+  }
+  if (hull_)
+    judge(model, time_s, opening, resting, still_since_s);
+}
+
+void ReleaseWatch::judge(const Model& model, double time_s, const barge::OpeningAngles& opening, bool resting,
+                         double still_since_s)
+{
+  if (outcome_ == Outcome::released || (outcome_ == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
+    return;
+  double top = model.sheets().front().sheet.node(0)[1];
+  for (const EnclosingSheet& enclosing : model.sheets()) {
+    const mpm::Column& z = enclosing.sheet.nodes().position[1];
+    top = std::max(top, *std::max_element(z.begin(), z.end()));
+  }
+  if (top < hull_->lowest_level_m(opening)) {
+    outcome_ = Outcome::released;
+    release_time_s_ = time_s;
+  } else {
+    outcome_ = resting && time_s - still_since_s >= hung_up_after_s_ ? Outcome::hung_up : Outcome::releasing;
+  }
+}
+
+StatusFrame ReleaseWatch::status(const Model& model) const
+{
+  StatusFrame status;
+  status.outcome = outcome_;
+  status.release_time_s = release_time_s_;
+  status.peak_tension_n_per_m = peak_;
+  status.peak_tension_time_s = peak_time_s_;
+  status.peak_tension_position_m = peak_position_;
+  status.current_tension_n_per_m = current_;
+  status.elongation_max = elongation_;
+  status.soil_volume_m2 = soil_volume(model);
+  status.soil_volume_initial_m2 = initial_volume_;
+
+  double mass = 0.0;
+  Vec2 lower = Vec2::Constant(1e300), upper = -lower;
+  const auto extend = [&](const mpm::Particles<2>& particles, std::size_t p) {
+    Vec2 x(particles.position[0][p], particles.position[1][p]);
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+    return x;
+  };
+  for (const Body& body : model.bodies())
+    for (std::size_t p = 0; p < body.particles.size(); ++p) {
+      status.centroid_m += body.particles.mass[p] * extend(body.particles, p);
+      mass += body.particles.mass[p];
+    }
+  for (const EnclosingSheet& enclosing : model.sheets())
+    for (std::size_t p = 0; p < enclosing.sheet.nodes().size(); ++p)
+      extend(enclosing.sheet.nodes(), p);
+  status.centroid_m /= mass;
+  status.width_m = upper[0] - lower[0];
+  status.height_m = upper[1] - lower[1];
+  return status;
+}
+
+void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force, Frame& frame)
+{
+  for (const Body& body : model.bodies()) {
+    const mpm::Particles<2>& particles = body.particles;
+    SoilFrame soil;
+    soil.name = body.name;
+    const std::size_t n = particles.size();
+    soil.position.resize(n);
+    soil.velocity.resize(n);
+    soil.stress.resize(n);
+    soil.volume.resize(n);
+    for (std::size_t p = 0; p < n; ++p) {
+      const std::size_t row = particles.id[p];  // order of creation, so that a row is one particle in every frame
+      soil.position[row] = { particles.position[0][p], particles.position[1][p] };
+      soil.velocity[row] = { particles.velocity[0][p], particles.velocity[1][p] };
+      for (std::size_t k = 0; k < 4; ++k)
+        soil.stress[row][k] = particles.stress[k][p];
+      soil.volume[row] = particles.volume[p];
+    }
+    frame.soil.push_back(std::move(soil));
+  }
+  for (const EnclosingSheet& enclosing : model.sheets()) {
+    const geotextile::Sheet& sheet = enclosing.sheet;
+    const GeotextileDescription& description = scene.geotextiles.at(enclosing.name);
+    GeotextileFrame geotextile;
+    geotextile.name = enclosing.name;
+    for (std::size_t i = 0; i < sheet.segments(); ++i) {
+      geotextile.node.push_back(sheet.node(i));
+      geotextile.velocity.emplace_back(sheet.nodes().velocity[0][i], sheet.nodes().velocity[1][i]);
+    }
+    geotextile.tension = sheet.tension();
+    sheet.gauge_tension(geotextile.gauge_tension);
+    geotextile.gauge_length_m = description.gauge_length_m;
+    geotextile.strength_n_per_m = description.strength_n_per_m;
+    geotextile.seam_strength_n_per_m = description.strength_n_per_m * description.seam_efficiency;
+    frame.geotextile.push_back(std::move(geotextile));
+  }
+  for (std::size_t b = 0; b < model.boundaries().size(); ++b) {
+    const contact::BoundaryBody& body = model.boundaries()[b];
+    BoundaryFrame boundary;
+    boundary.name = body.name();
+    for (std::size_t p = 0; p < body.size(); ++p)
+      boundary.position.push_back(body.reference(p));
+    boundary.force_n_per_m = boundary_force[b];
+    if (b == static_cast<std::size_t>(model.hull_index()) && model.hull_index() >= 0)
+      boundary.angle_rad = frame.opening.port_rad;
+    else if (model.hull_index() >= 0 && b == static_cast<std::size_t>(model.hull_index()) + 1)
+      boundary.angle_rad = frame.opening.starboard_rad;
+    frame.boundary.push_back(std::move(boundary));
+  }
+}
+
+}  // namespace geocontainer_mpm::scene

@@ -1,0 +1,154 @@
+#include "geocontainer_mpm/scene/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geocontainer_mpm/error.h"
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Vec2 rotate(const Vec2& x, const Vec2& pivot, double angle_deg)
+{
+  const double c = std::cos(angle_deg * pi / 180.0), s = std::sin(angle_deg * pi / 180.0);
+  const Vec2 r = x - pivot;
+  return pivot + Vec2(c * r[0] - s * r[1], s * r[0] + c * r[1]);
+}
+
+std::vector<Vec2> hopper_outline(double area, const HullDescription& hull)
+{
+  // The inner wall starts where the halves part: the last vertex on the plane of symmetry.
+  std::vector<Vec2> wall;
+  for (const Vec2& vertex : hull.port_section_m)
+    if (vertex[0] <= 1e-9)
+      wall.assign(1, vertex);
+    else if (!wall.empty())
+      wall.push_back(vertex);
+  double filled = 0.0;
+  std::vector<Vec2> half;
+  if (!wall.empty())
+    half.push_back(wall.front());
+  for (std::size_t k = 0; k + 1 < wall.size(); ++k) {
+    const Vec2 a = wall[k], b = wall[k + 1];
+    const double height = b[1] - a[1];
+    if (!(height > 0.0))
+      break;  // the hopper closes again: nothing can be filled above
+    const double band = (a[0] + b[0]) * height;  // both halves
+    if (filled + band < area) {
+      filled += band;
+      half.push_back(b);
+      continue;
+    }
+    // Level t in [0, 1] of this band: 2 height (a t + (b - a) t^2 / 2) = rest.
+    const double rest = area - filled, slope = b[0] - a[0];
+    const double t = slope * slope < 1e-24 ? rest / (2.0 * height * a[0])
+                                           : (-a[0] + std::sqrt(a[0] * a[0] + slope * rest / height)) / slope;
+    half.emplace_back(a + t * (b - a));
+    std::vector<Vec2> closed = half;
+    for (auto it = half.rbegin(); it != half.rend(); ++it)
+      if ((*it)[0] > 1e-9)
+        closed.emplace_back(-(*it)[0], (*it)[1]);
+    return closed;
+  }
+  throw InputError("", "shape.hopper_fill.area_m2", fmt::format("{}", area),
+                   fmt::format("the hopper holds less than {} m2 below its deck", filled));
+}
+
+bool contains(const std::vector<Vec2>& polygon, const Vec2& x)
+{
+  bool in = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vec2 &a = polygon[i], &b = polygon[j];
+    if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]) + a[0])
+      in = !in;
+  }
+  return in;
+}
+
+}  // namespace
+
+double polygon_area(const std::vector<Vec2>& polygon)
+{
+  double twice = 0.0;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    twice += polygon[j][0] * polygon[i][1] - polygon[j][1] * polygon[i][0];
+  return 0.5 * twice;
+}
+
+std::vector<Vec2> outline(const ShapeDescription& shape, const std::optional<HullDescription>& hull, double resolution)
+{
+  std::vector<Vec2> result;
+  if (shape.box) {
+    const Vec2 &lower = shape.box->lower_m, &upper = shape.box->upper_m;
+    for (const Vec2& corner : { lower, Vec2(upper[0], lower[1]), upper, Vec2(lower[0], upper[1]) })
+      result.push_back(rotate(corner, shape.box->pivot_m, shape.box->rotation_deg));
+  } else if (shape.disc) {
+    const int sides = std::max(24, static_cast<int>(std::ceil(2.0 * pi * shape.disc->radius_m / resolution)));
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2.0 * pi * k / sides;
+      result.emplace_back(shape.disc->center_m + shape.disc->radius_m * Vec2(std::cos(angle), std::sin(angle)));
+    }
+  } else if (shape.polygon) {
+    result = shape.polygon->vertices_m;
+  } else {
+    result = hopper_outline(shape.hopper_fill->area_m2, hull.value());
+  }
+  if (polygon_area(result) < 0.0)
+    std::reverse(result.begin(), result.end());
+  return result;
+}
+
+Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline, double spacing)
+{
+  Sampling result;
+  if (shape.box) {
+    const Vec2 size = shape.box->upper_m - shape.box->lower_m;
+    const int columns = std::max(1, static_cast<int>(std::lround(size[0] / spacing)));
+    const int rows = std::max(1, static_cast<int>(std::lround(size[1] / spacing)));
+    for (int i = 0; i < columns; ++i)
+      for (int j = 0; j < rows; ++j) {
+        const Vec2 x = shape.box->lower_m + Vec2((i + 0.5) * size[0] / columns, (j + 0.5) * size[1] / rows);
+        result.points.push_back(rotate(x, shape.box->pivot_m, shape.box->rotation_deg));
+      }
+    result.volume = size[0] * size[1] / static_cast<double>(result.points.size());
+    return result;
+  }
+  Vec2 lower = outline.front(), upper = outline.front();
+  for (const Vec2& vertex : outline) {
+    lower = lower.cwiseMin(vertex);
+    upper = upper.cwiseMax(vertex);
+  }
+  // Symmetric about the middle of the shape in y, so that a symmetric shape is filled symmetrically.
+  const int columns = static_cast<int>(std::ceil(0.5 * (upper[0] - lower[0]) / spacing));
+  const int rows = static_cast<int>(std::ceil((upper[1] - lower[1]) / spacing));
+  const double middle = 0.5 * (lower[0] + upper[0]);
+  for (int i = -columns; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      const Vec2 x(middle + (i + 0.5) * spacing, upper[1] - (j + 0.5) * spacing);
+      if (contains(outline, x))
+        result.points.push_back(x);
+    }
+  if (!result.points.empty())
+    result.volume = polygon_area(outline) / static_cast<double>(result.points.size());
+  return result;
+}
+
+double top_at(const std::vector<Vec2>& polygon, double y)
+{
+  double top = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vec2 &a = polygon[i], &b = polygon[j];
+    if (std::min(a[0], b[0]) > y || std::max(a[0], b[0]) < y)
+      continue;
+    const double span = b[0] - a[0];
+    top = std::max(top, std::abs(span) < 1e-12 ? std::max(a[1], b[1]) : a[1] + (y - a[0]) / span * (b[1] - a[1]));
+  }
+  return top;
+}
+
+}  // namespace geocontainer_mpm::scene

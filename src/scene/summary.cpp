@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "geocontainer_mpm/scene/simulation.h"
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json pair(const Vec2& vector)
+{
+  return Json::array({ vector.x(), vector.y() });
+}
+
+Json rejected_samples(const barge::OpeningSignal& opening)
+{
+  Json counts = Json::object();
+  for (int i = 0; i < barge::sample_verdict_count; ++i) {
+    const auto verdict = static_cast<barge::SampleVerdict>(i);
+    if (verdict != barge::SampleVerdict::accepted)
+      counts[barge::to_string(verdict)] = opening.count(verdict);
+  }
+  return counts;
+}
+
+/// A gap that lasts has an infinite end, which JSON writes as null.
+Json gaps(const barge::OpeningSignal& opening)
+{
+  Json list = Json::array();
+  for (const barge::OpeningGap& gap : opening.gaps())
+    list.push_back({ { "from_s", gap.from_s }, { "to_s", gap.to_s } });
+  return list;
+}
+
+Json energy(const EnergyFrame& frame)
+{
+  return { { "kinetic", frame.kinetic },
+           { "elastic", frame.elastic },
+           { "potential", frame.potential },
+           { "dissipated", frame.dissipated },
+           { "dissipated_plastic", frame.dissipated_plastic },
+           { "dissipated_contact", frame.dissipated_contact },
+           { "dissipated_transfer", frame.dissipated_transfer },
+           { "work_in", frame.work_in },
+           { "relative_balance_error", frame.relative_balance_error },
+           { "unit", "J/m" } };
+}
+
+Json skipped(const SkippedCounts& counts)
+{
+  return { { "resting_time_s", counts.resting_time_s },
+           { "contact_searches", counts.contact_searches },
+           { "grid_nodes", counts.grid_nodes },
+           { "membrane_passes", counts.membrane_passes } };
+}
+
+Json stages(const StageTimes& times)
+{
+  return { { "p2g_s", times.p2g_s },           { "forces_s", times.forces_s }, { "contact_s", times.contact_s },
+           { "membrane_s", times.membrane_s }, { "g2p_s", times.g2p_s },       { "material_s", times.material_s } };
+}
+
+/// Keys of the sheet; null in a scene without one, and where and when of a peak that has not been.
+void add_geotextile(Json& summary, const SceneDescription& scene, const StatusFrame& status)
+{
+  const bool present = !scene.geotextiles.empty();
+  const bool taut = present && status.peak_tension_n_per_m > 0.0;
+  summary["peak_tension_n_per_m"] = present ? Json(status.peak_tension_n_per_m) : Json();
+  summary["peak_tension_time_s"] = taut ? Json(status.peak_tension_time_s) : Json();
+  summary["peak_tension_position_m"] = taut ? pair(status.peak_tension_position_m) : Json();
+  summary["peak_utilisation"] = Json();
+  if (scene.geotextiles.size() == 1) {
+    const GeotextileDescription& sheet = scene.geotextiles.begin()->second;
+    summary["peak_utilisation"] = status.peak_tension_n_per_m / (sheet.strength_n_per_m * sheet.seam_efficiency);
+  }
+  summary["residual_tension_n_per_m"] = present ? Json(status.current_tension_n_per_m) : Json();
+  summary["geotextile_elongation_max"] = present ? Json(status.elongation_max) : Json();
+}
+
+}  // namespace
+
+std::string summary_json(const Simulation& simulation, double wall_time_s, int threads)
+{
+  const SceneDescription& scene = simulation.scene();
+  const StatusFrame status = simulation.status();
+  const RunCounters counters = simulation.counters();
+  const barge::OpeningSignal& opening = simulation.opening();
+
+  Json summary;
+  summary["scene"] = scene.name;
+  summary["outcome"] = to_string(status.outcome);
+  summary["release_time_s"] = status.release_time_s >= 0.0 ? Json(status.release_time_s) : Json();
+  add_geotextile(summary, scene, status);
+  summary["container_centroid_m"] = pair(status.centroid_m);
+  summary["container_width_m"] = status.width_m;
+  summary["container_height_m"] = status.height_m;
+  summary["soil_volume_m2"] = status.soil_volume_m2;
+  summary["soil_volume_change"] =
+      status.soil_volume_initial_m2 > 0.0 ? Json(status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0) : Json();
+  summary["energy"] = energy(simulation.energy());
+  summary["momentum_error"] = counters.momentum_error;
+  summary["particles"] = counters.particles;
+  summary["steps"] = counters.steps;
+  summary["min_dt_s"] = counters.min_dt_s;
+  summary["max_dt_s"] = counters.max_dt_s;
+  summary["simulated_time_s"] = counters.simulated_time_s;
+  summary["wall_time_s"] = wall_time_s;
+  summary["real_time_factor"] = wall_time_s > 0.0 ? Json(counters.simulated_time_s / wall_time_s) : Json();
+  summary["threads"] = threads;
+  summary["stages"] = stages(counters.stages);
+  summary["skipped"] = skipped(counters.skipped);
+  summary["accepted_samples"] = opening.count(barge::SampleVerdict::accepted);
+  summary["rejected_samples"] = rejected_samples(opening);
+  summary["gaps"] = gaps(opening);
+  summary["digest"] = fmt::format("{:016x}", simulation.digest());
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace geocontainer_mpm::scene

@@ -1,0 +1,304 @@
+// Unilateral Coulomb contact on the grid: Signorini, Coulomb, Newton and the energy book.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "contact_input.h"
+
+namespace geocontainer_mpm::contact::testing {
+namespace {
+
+constexpr double dt = 1e-3;
+/// The solver stops when velocities change by less than 1e-6 m/s in a sweep.
+constexpr double converged = 1e-4;
+
+struct Solved {
+  ContactSums sums;
+  std::vector<BoundaryImpulse> boundary;
+};
+
+Solved solve(ContactSolver& solver, const std::vector<BoundaryBody>& bodies, Patch& patch, double kick = 0.0)
+{
+  Solved result;
+  result.sums = solver.solve(bodies, { { &patch.points, false } }, kick, dt, patch.grid, result.boundary);
+  return result;
+}
+Solved solve(const std::vector<BoundaryBody>& bodies, Patch& patch, double kick = 0.0)
+{
+  ContactSolver solver;
+  return solve(solver, bodies, patch, kick);
+}
+
+/// Normal of a wall that may look anywhere.
+Vec2 random_normal(Chance& chance)
+{
+  return Eigen::Rotation2Dd(chance(-pi, pi)) * Vec2(0.0, 1.0);
+}
+
+/// A row of points a cell apart at distances `low` to `high` from the wall at the origin with this normal.
+std::vector<Vec2> random_row(Chance& chance, const Vec2& normal, double low, double high)
+{
+  std::vector<Vec2> row;
+  const Vec2 tangent(normal[1], -normal[0]);
+  const Vec2 shift = chance.vector<2>(0.05);
+  for (int k = -3; k <= 3; ++k)
+    row.emplace_back((0.1 * k + shift[0]) * tangent + chance(low, high) * normal);
+  return row;
+}
+
+TEST(ContactSolver, LeavesAnOpenGapAlone)
+{
+  EXPECT_TRUE(holds("open", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch(random_row(chance, normal, 0.004, 0.3));
+    for (std::size_t p = 0; p < patch.size(); ++p)
+      patch.set_velocity(p, chance.vector<2>(2.0));  // 2 mm a step and a half at most
+    patch.to_grid();
+    const mpm::Grid<2> before = patch.grid;
+    const Solved solved = solve({ wall(Vec2::Zero(), normal, 0.5) }, patch);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      RC_ASSERT((before.nodes()[i] == patch.grid.nodes()[i]).all());
+    RC_ASSERT(solved.sums.impulse == Vec2::Zero());
+    RC_ASSERT(solved.sums.dissipated == 0.0);
+    RC_ASSERT(solved.sums.kinetic_change == 0.0);
+  }));
+}
+
+TEST(ContactSolver, ClosesAGapExactlyWithoutFriction)
+{
+  EXPECT_TRUE(holds("closes", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    const double gap = chance(0.0, 0.002);
+    Patch patch({ gap * normal });
+    const Vec2 tangent(normal[1], -normal[0]);
+    const double approach = -gap / dt - chance(0.1, 2.0), along = chance(-2.0, 2.0);
+    patch.set_velocity(approach * normal + along * tangent);
+    patch.to_grid();
+    solve({ wall(Vec2::Zero(), normal, 0.0) }, patch);
+    const Vec2 v = patch.velocity_at(patch.at(0));
+    RC_ASSERT(std::abs(gap + dt * v.dot(normal)) < 1e-12 * dt * 10.0);
+    RC_ASSERT(std::abs(v.dot(tangent) - along) < 1e-12);
+  }));
+}
+
+TEST(ContactSolver, NoPointOfARowEndsBehindTheWallAndOnlyTouchingOnesArePushed)
+{
+  EXPECT_TRUE(holds("row", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch(random_row(chance, normal, 0.0, 0.004));
+    patch.set_velocity(chance.vector<2>(3.0) - 2.0 * normal);
+    patch.to_grid();
+    const Solved solved = solve({ wall(Vec2::Zero(), normal, chance(0.0, 1.0)) }, patch);
+    double closest = 1.0;
+    for (std::size_t p = 0; p < patch.size(); ++p) {
+      const double after = (patch.at(p) + dt * patch.velocity_at(patch.at(p))).dot(normal);
+      RC_ASSERT(after > -converged * dt);
+      closest = std::min(closest, after);
+    }
+    if (solved.sums.impulse != Vec2::Zero())
+      RC_ASSERT(closest < converged * dt);
+  }));
+}
+
+TEST(ContactSolver, DoesNotHinderSeparationEvenAfterPressing)
+{
+  EXPECT_TRUE(holds("separation", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch(random_row(chance, normal, 0.0, 1e-4));
+    const std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), normal, 0.6) };
+    ContactSolver solver;
+    patch.set_velocity(chance.vector<2>(0.5) - 1.0 * normal);
+    patch.to_grid();
+    RC_ASSERT(solve(solver, bodies, patch).sums.impulse.norm() > 0.0);
+
+    const Vec2 tangent(normal[1], -normal[0]);
+    const Vec2 away = chance(0.1, 1.0) * normal + chance(-1.0, 1.0) * tangent;
+    patch.set_velocity(away);
+    patch.to_grid();
+    const Solved solved = solve(solver, bodies, patch);
+    RC_ASSERT(solved.sums.impulse.norm() < 1e-12);
+    for (std::size_t p = 0; p < patch.size(); ++p)
+      RC_ASSERT(apart(patch.velocity_at(patch.at(p)), away) < 1e-12);
+  }));
+}
+
+TEST(ContactSolver, GivesTheCoulombAnswerForOnePoint)
+{
+  EXPECT_TRUE(holds("one point", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance), tangent(normal[1], -normal[0]);
+    const double friction = chance(0.0, 1.0), down = chance(0.1, 2.0), along = chance(-2.0, 2.0);
+    Patch patch({ Vec2::Zero() });
+    patch.set_velocity(-down * normal + along * tangent);
+    patch.to_grid();
+    const Vec2 before = patch.momentum();
+    const Solved solved = solve({ wall(Vec2::Zero(), normal, friction) }, patch);
+    const Vec2 v = patch.velocity_at(Vec2::Zero());
+    const double kept = std::max(0.0, std::abs(along) - friction * down);
+    RC_ASSERT(std::abs(v.dot(normal)) < 1e-12);
+    RC_ASSERT(std::abs(v.dot(tangent) - std::copysign(kept, along)) < 1e-12);
+    RC_ASSERT(apart(patch.momentum() - before, solved.sums.impulse) < 1e-12);
+  }));
+}
+
+TEST(ContactSolver, KeepsToCoulombsConeAndSticksInside)
+{
+  EXPECT_TRUE(holds("cone", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance), tangent(normal[1], -normal[0]);
+    const double friction = chance(0.05, 1.0), down = chance(0.1, 1.0), along = chance(-2.0, 2.0);
+    Patch patch(random_row(chance, normal, 0.0, 0.0));
+    patch.set_velocity(-down * normal + along * tangent);
+    patch.to_grid();
+    const Solved solved = solve({ wall(Vec2::Zero(), normal, friction) }, patch);
+    const double pressed = solved.boundary[0].impulse.dot(normal);
+    const double dragged = solved.boundary[0].impulse.dot(tangent);
+    RC_ASSERT(pressed > 0.0);
+    RC_ASSERT(std::abs(dragged) <= friction * pressed * (1.0 + 1e-12));
+    RC_ASSERT(dragged * along <= 0.0);
+    if (std::abs(along) < 0.8 * friction * down)
+      for (std::size_t p = 0; p < patch.size(); ++p)
+        RC_ASSERT(patch.velocity_at(patch.at(p)).norm() < converged);
+    if (std::abs(along) > 1.2 * friction * down)
+      RC_ASSERT(std::abs(dragged) > friction * pressed * (1.0 - 1e-2));
+  }));
+}
+
+TEST(ContactSolver, HeldContactSticksWithoutFriction)
+{
+  EXPECT_TRUE(holds("held", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance), tangent(normal[1], -normal[0]);
+    Patch patch({ Vec2::Zero() });
+    patch.set_velocity(-chance(0.1, 1.0) * normal + chance(-2.0, 2.0) * tangent);
+    patch.to_grid();
+    ContactSolver solver;
+    solver.hold(true);
+    solve(solver, { wall(Vec2::Zero(), normal, 0.0) }, patch);
+    RC_ASSERT(patch.velocity_at(Vec2::Zero()).norm() < 1e-12);
+  }));
+}
+
+TEST(ContactSolver, ChangesMomentumByTheImpulseItReportsAndEnergyByItsBook)
+{
+  EXPECT_TRUE(holds("books", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch(random_row(chance, normal, -1e-4, 0.003));
+    for (std::size_t p = 0; p < patch.size(); ++p)
+      patch.set_velocity(p, chance.vector<2>(2.0) - 1.0 * normal);
+    const double kick = chance(0.0, 2e-3);
+    patch.to_grid(chance.vector<2>(100.0), kick);
+    BoundaryBody moving = wall(Vec2::Zero(), normal, chance(0.0, 1.0));
+    const double turn = chance(-1.0, 1.0) * dt;
+    moving.set_motion({ 1.0, 0.0, { 0.0, 3.0 } }, RigidPose::rotation(turn, { 0.0, 3.0 }), dt);
+    const Vec2 momentum = patch.momentum();
+    const double kinetic = patch.kinetic();
+    const Solved solved = solve({ moving, wall(-0.5 * normal, normal, 0.3) }, patch, kick);
+    const double size = 1.0 + kinetic;
+    RC_ASSERT(apart(patch.momentum() - momentum, solved.sums.impulse) < 1e-12 * size);
+    RC_ASSERT(apart(solved.boundary[0].impulse + solved.boundary[1].impulse, solved.sums.impulse) < 1e-12 * size);
+    RC_ASSERT(solved.boundary[1].impulse == Vec2::Zero());
+    RC_ASSERT(std::abs(patch.kinetic() - kinetic - solved.sums.kinetic_change) < 1e-11 * size);
+  }));
+}
+
+TEST(ContactSolver, DissipatesAtAWallAtRest)
+{
+  EXPECT_TRUE(holds("dissipation", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch(random_row(chance, normal, 0.0, 0.003));
+    for (std::size_t p = 0; p < patch.size(); ++p)
+      patch.set_velocity(p, chance.vector<2>(2.0) - 1.0 * normal);
+    patch.to_grid();
+    const double kinetic = patch.kinetic();
+    const Solved solved = solve({ wall(Vec2::Zero(), normal, chance(0.0, 1.0)) }, patch);
+    RC_ASSERT(solved.boundary[0].work == 0.0);
+    RC_ASSERT(solved.sums.dissipated >= -1e-6 * kinetic);
+    RC_ASSERT(std::abs(patch.kinetic() - kinetic + solved.sums.dissipated) < 1e-11 * (1.0 + kinetic));
+  }));
+}
+
+TEST(ContactSolver, LoadThatOnlyRestsOnTheWallDissipatesNothing)
+{
+  EXPECT_TRUE(holds("rest", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch(random_row(chance, normal, 0.0, 0.0));
+    const double kick = 1e-3, pull = chance(1.0, 20.0);
+    patch.set_velocity(Vec2::Zero());
+    patch.to_grid(-pull * normal, kick);
+    const Solved solved = solve({ wall(Vec2::Zero(), normal, 0.5) }, patch, kick);
+    const double weight = 3.0 * static_cast<double>(patch.size());
+    RC_ASSERT(apart(solved.sums.impulse, weight * pull * kick * normal) < weight * converged);
+    RC_ASSERT(std::abs(solved.sums.dissipated) < 1e-3 * 0.5 * weight * pull * pull * kick * kick);
+  }));
+}
+
+TEST(ContactSolver, AMovingWallDoesTheWorkItReports)
+{
+  EXPECT_TRUE(holds("work", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    Patch patch({ Vec2::Zero() });
+    patch.set_velocity(chance.vector<2>(1.0));
+    patch.to_grid();
+    BoundaryBody body = wall(Vec2::Zero(), normal, chance(0.0, 1.0));
+    const Vec2 pivot = chance.vector<2>(3.0);
+    body.set_motion(RigidPose::rotation(0.0, pivot), RigidPose::rotation(chance(-2.0, 2.0) * dt, pivot), dt);
+    const Vec2 pushed = body.velocity_at(Vec2::Zero());
+    const double kinetic = patch.kinetic();
+    const Solved solved = solve({ body }, patch);
+    RC_ASSERT((patch.velocity_at(Vec2::Zero()) - pushed).dot(normal) > -1e-12);
+    RC_ASSERT(std::abs(solved.boundary[0].work - solved.boundary[0].impulse.dot(pushed)) < 1e-12);
+    RC_ASSERT(std::abs(patch.kinetic() - kinetic - solved.boundary[0].work + solved.sums.dissipated) < 1e-11);
+    RC_ASSERT(solved.sums.dissipated > -1e-12);
+  }));
+}
+
+TEST(ContactSolver, TwoWallsAtOneNodeHoldAPointInTheirV)
+{
+  EXPECT_TRUE(holds("closed V", [](Chance& chance) {
+    // Walls that open by 60 to 150 degrees above the tip, each with its own friction; points a little above it.
+    const double half = chance(30.0, 75.0) * pi / 180.0;
+    const Vec2 port(-std::cos(half), std::sin(half)), starboard(std::cos(half), std::sin(half));
+    std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), port, chance(0.0, 0.5)),
+                                      wall(Vec2::Zero(), starboard, chance(0.0, 0.5)) };
+    Patch patch({ { 0.0, chance(0.0, 0.003) }, { 0.05, chance(0.09, 0.15) }, { -0.05, chance(0.09, 0.15) } });
+    patch.set_velocity({ chance(-1.0, 1.0), -chance(1.0, 4.0) });
+    patch.to_grid();
+    const Solved solved = solve(bodies, patch);
+    RC_ASSERT(solved.boundary[0].impulse.dot(port) >= 0.0);
+    RC_ASSERT(solved.boundary[1].impulse.dot(starboard) >= 0.0);
+    for (std::size_t p = 0; p < patch.size(); ++p) {
+      const Vec2 next = patch.at(p) + dt * patch.velocity_at(patch.at(p));
+      const double allowed = 1e-2 * dt;
+      RC_ASSERT(next.dot(port) > std::min(0.0, patch.at(p).dot(port)) - allowed);
+      RC_ASSERT(next.dot(starboard) > std::min(0.0, patch.at(p).dot(starboard)) - allowed);
+    }
+  }));
+}
+
+TEST(ContactSolver, TakesABodyWithoutASheetAtItsOwnSurface)
+{
+  EXPECT_TRUE(holds("width", [](Chance& chance) {
+    const Vec2 normal = random_normal(chance);
+    const double width = chance(0.02, 0.08), gap = chance(0.0, 0.001);
+    Patch patch({ (0.5 * width + gap) * normal });
+    patch.points.initial_volume[0] = width * width;
+    patch.set_velocity(-chance(1.5, 3.0) * normal);
+    patch.to_grid();
+    std::vector<BoundaryImpulse> boundary;
+    ContactSolver().solve({ wall(Vec2::Zero(), normal, 0.0) }, { { &patch.points, true } }, 0.0, dt, patch.grid,
+                          boundary);
+    RC_ASSERT(std::abs(gap + dt * patch.velocity_at(patch.at(0)).dot(normal)) < 1e-14);
+  }));
+}
+
+TEST(ContactSolver, CountsBodiesThatNothingIsNear)
+{
+  Patch patch({ { 0.0, 0.0 } });
+  patch.to_grid();
+  mpm::Window<2> window{ { 8, 8 }, { 16, 16 } };
+  mpm::testing::open(window, patch.grid);
+  EXPECT_EQ(solve({ wall({ 0.0, -50.0 }, { 0.0, 1.0 }, 0.3) }, patch).sums.skipped, 1U);
+  EXPECT_EQ(solve({ wall({ 0.0, 0.0 }, { 0.0, 1.0 }, 0.3) }, patch).sums.skipped, 0U);
+}
+
+}  // namespace
+}  // namespace geocontainer_mpm::contact::testing

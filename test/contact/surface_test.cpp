@@ -1,0 +1,108 @@
+// Nearest point, sign and normal of a polyline, against the brute force of the definition.
+
+#include <gtest/gtest.h>
+
+#include "contact_input.h"
+#include "geocontainer_mpm/error.h"
+
+namespace geocontainer_mpm::contact::testing {
+namespace {
+
+TEST(Surface, IsPositiveAboveTheGroundAndNegativeInIt)
+{
+  EXPECT_TRUE(holds("sign", [](Chance& chance) {
+    const std::vector<Vec2> ground = random_ground(chance, chance.whole(1, 6));
+    const Surface surface(ground);
+    for (int k = 0; k < 20; ++k) {
+      const double y = chance(ground.front()[0], ground.back()[0]);
+      const double above = chance(-1.0, 1.0);
+      const Vec2 x(y, height_at(ground, y) + above);
+      const Brute brute = brute_nearest(ground, x);
+      if (brute.at_end)
+        continue;
+      const Nearest nearest = surface.nearest(x);
+      RC_ASSERT(std::abs(std::abs(nearest.distance) - brute.distance) < 1e-12);
+      RC_ASSERT((nearest.distance > 0.0) == (above > 0.0));
+    }
+  }));
+}
+
+TEST(Surface, HasAUnitNormalThatPointsAwayFromItsNearestPoint)
+{
+  EXPECT_TRUE(holds("normal", [](Chance& chance) {
+    const std::vector<Vec2> ground = random_ground(chance, chance.whole(1, 6));
+    const Surface surface(ground);
+    const double y = chance(ground.front()[0], ground.back()[0]);
+    const Vec2 x(y, height_at(ground, y) + chance(-1.0, 1.0));
+    if (brute_nearest(ground, x).at_end)
+      return;
+    const Nearest nearest = surface.nearest(x);
+    RC_ASSERT(std::abs(nearest.normal.norm() - 1.0) < 1e-12);
+    RC_ASSERT(brute_nearest(ground, x - nearest.distance * nearest.normal).distance < 1e-12);
+  }));
+}
+
+TEST(Surface, AtAConvexCornerLooksAwayFromTheVertex)
+{
+  const Surface roof({ { -1.0, -1.0 }, { 0.0, 0.0 }, { 1.0, -1.0 } });
+  const Nearest above = roof.nearest({ 0.1, 0.3 });
+  EXPECT_NEAR(above.distance, std::hypot(0.1, 0.3), 1e-15);
+  EXPECT_NEAR(above.normal[0], 0.1 / std::hypot(0.1, 0.3), 1e-15);
+  const Nearest on = roof.nearest({ 0.0, 0.0 });
+  EXPECT_EQ(on.distance, 0.0);
+  EXPECT_NEAR(on.normal.norm(), 1.0, 1e-15);
+  EXPECT_GT(on.normal[1], 0.0);
+}
+
+TEST(Surface, InAConcaveCornerIsNegativeBehindTheVertex)
+{
+  const Surface valley({ { -1.0, 1.0 }, { 0.0, 0.0 }, { 1.0, 1.0 } });
+  const Nearest below = valley.nearest({ 0.1, -0.3 });
+  EXPECT_NEAR(below.distance, -std::hypot(0.1, 0.3), 1e-15);
+  EXPECT_GT(below.normal[1], 0.0);
+  EXPECT_NEAR(valley.nearest({ 0.0, 0.2 }).distance, 0.2 * std::sqrt(0.5), 1e-15);
+}
+
+TEST(Surface, ReachesNoFurtherThanItsEnds)
+{
+  const Surface line({ { -1.0, 0.0 }, { 1.0, 0.0 } });
+  EXPECT_TRUE(std::isinf(line.nearest({ 1.01, -0.01 }).distance));
+  EXPECT_TRUE(std::isinf(line.nearest({ -1.01, 0.01 }).distance));
+  EXPECT_EQ(line.nearest({ 0.99, -0.01 }).distance, -0.01);
+  // The bottom and the side of a box, open at (2, 0): just beyond that end nothing is near, least of all the far side.
+  const Surface box({ { 2.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 1.0 }, { 2.0, 1.0 } });
+  EXPECT_NEAR(box.nearest({ 1.9, -0.02 }).distance, 0.02, 1e-15);
+  EXPECT_TRUE(std::isinf(box.nearest({ 2.1, -0.02 }).distance));
+}
+
+TEST(Surface, IsInfiniteWhereverAnEndIsNearest)
+{
+  EXPECT_TRUE(holds("ends", [](Chance& chance) {
+    const std::vector<Vec2> ground = random_ground(chance, chance.whole(1, 6));
+    const Vec2 end = chance.whole(0, 1) == 0 ? ground.front() : ground.back();
+    const Vec2 x = end + chance.vector<2>(0.3);
+    const Brute brute = brute_nearest(ground, x);
+    RC_ASSERT(std::isinf(Surface(ground).nearest(x).distance) == brute.at_end);
+  }));
+}
+
+TEST(Surface, RefusesWhatIsNoLine)
+{
+  EXPECT_THROW(Surface({ { 0.0, 0.0 } }), InputError);
+  EXPECT_THROW(Surface({ { 0.0, 0.0 }, { 0.0, 0.0 } }), InputError);
+}
+
+TEST(RigidPose, TurnsPortUpwardsAndBack)
+{
+  const RigidPose quarter = RigidPose::rotation(0.5 * pi, { 1.0, 1.0 });
+  EXPECT_LT(apart(quarter.apply({ 2.0, 1.0 }), Vec2(1.0, 2.0)), 1e-15);
+  EXPECT_TRUE(holds("inverse", [](Chance& chance) {
+    const RigidPose pose = RigidPose::rotation(chance(-4.0, 4.0), chance.vector<2>(5.0));
+    const Vec2 x = chance.vector<2>(5.0);
+    RC_ASSERT(apart(pose.invert(pose.apply(x)), x) < 1e-13);
+    RC_ASSERT(apart(pose.turn_back(pose.turn(x)), x) < 1e-13);
+  }));
+}
+
+}  // namespace
+}  // namespace geocontainer_mpm::contact::testing

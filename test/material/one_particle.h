@@ -1,0 +1,161 @@
+#pragma once
+/// A batch of one particle, driven by displacement-gradient increments, and an account of the work done on it that is
+/// kept independently of the law: plain Eigen, Hughes & Winget (1980) written down as in the paper.
+
+#include <Eigen/Dense>
+#include <array>
+#include <memory>
+
+#include "geocontainer_mpm/material/law.h"
+#include "geocontainer_mpm/mpm/types.h"
+
+namespace geocontainer_mpm::material::testing {
+
+inline constexpr double pi = 3.14159265358979323846;
+
+template <int Dim>
+class OneParticle {
+public:
+  explicit OneParticle(const Parameters& parameters) : parameters_(parameters), law_(make_law<Dim>(parameters))
+  {
+    for (std::size_t i = 0; i < gradient_.size(); ++i)
+      batch_.velocity_gradient[i] = &gradient_[i];
+    for (std::size_t i = 0; i < stress_.size(); ++i)
+      batch_.stress[i] = &stress_[i];
+    batch_.volume = &volume;
+    batch_.separated_strain = &bank;
+    batch_.elastic_energy = &elastic_energy;
+    batch_.dissipated = &dissipated;
+  }
+  OneParticle(const OneParticle& other) : OneParticle(other.parameters_) { *this = other; }
+  OneParticle& operator=(const OneParticle& other)
+  {
+    stress_ = other.stress_;
+    volume = other.volume;
+    bank = other.bank;
+    elastic_energy = other.elastic_energy;
+    dissipated = other.dissipated;
+    work = other.work;
+    volume_defect = other.volume_defect;
+    return *this;
+  }
+
+  /// The full tensor; in plane strain (2, 2) is the out-of-plane stress.
+  Eigen::Matrix3d stress() const
+  {
+    Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+    if constexpr (Dim == 2) {
+      s(0, 0) = stress_[0];
+      s(1, 1) = stress_[1];
+      s(0, 1) = s(1, 0) = stress_[2];
+      s(2, 2) = stress_[3];
+    } else {
+      s << stress_[0], stress_[3], stress_[4], stress_[3], stress_[1], stress_[5], stress_[4], stress_[5], stress_[2];
+    }
+    return s;
+  }
+  void set_stress(const Eigen::Matrix3d& s)
+  {
+    if constexpr (Dim == 2)
+      stress_ = { s(0, 0), s(1, 1), s(0, 1), s(2, 2) };
+    else
+      stress_ = { s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2) };
+    law_->initialise(batch_, 0, 1);
+  }
+
+  /// Moves the particle by x -> x + h x.
+  void step(const Mat<Dim>& h)
+  {
+    const double dt = 1.0 / 1024.0;  // a power of two: dt times the gradient is h to the last bit
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j)
+        gradient_[static_cast<std::size_t>(i * Dim + j)] = h(i, j) / dt;
+    const Eigen::Matrix3d before = rotation(h) * stress() * rotation(h).transpose();
+    const double old_volume = volume, old_density = elastic_energy / volume;
+    law_->update(batch_, dt, 0, 1);
+    const double mid = 0.5 * (old_volume + volume);
+    work += mid * 0.5 * (before + stress()).cwiseProduct(strain(h)).sum();
+    volume_defect += 0.5 * (old_density + elastic_energy / volume) * (volume - old_volume);
+  }
+
+  static Eigen::Matrix3d midpoint_gradient(const Mat<Dim>& h)
+  {
+    Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+    const Mat<Dim> identity = Mat<Dim>::Identity();
+    g.topLeftCorner<Dim, Dim>() = h * (identity + 0.5 * h).inverse();
+    return g;
+  }
+  /// Turned into the frame at the end of the step.
+  static Eigen::Matrix3d strain(const Mat<Dim>& h)
+  {
+    const Eigen::Matrix3d g = midpoint_gradient(h);
+    const Eigen::AngleAxisd turn(rotation(h));
+    const Eigen::Matrix3d half = Eigen::AngleAxisd(0.5 * turn.angle(), turn.axis()).toRotationMatrix();
+    return half * (0.5 * (g + g.transpose())) * half.transpose();
+  }
+  static Eigen::Matrix3d rotation(const Mat<Dim>& h)
+  {
+    const Eigen::Matrix3d g = midpoint_gradient(h), half_spin = 0.25 * (g - g.transpose());
+    return (Eigen::Matrix3d::Identity() - half_spin).inverse() * (Eigen::Matrix3d::Identity() + half_spin);
+  }
+
+  double volume = 1.0, bank = 0.0, elastic_energy = 0.0, dissipated = 0.0;
+  double work = 0.0;           ///< trapezoidal work done on the particle, J
+  double volume_defect = 0.0;  ///< sum of e dV: what V e is not a potential for in a Cauchy-stress law, J
+
+private:
+  Parameters parameters_;
+  std::unique_ptr<Law<Dim>> law_;
+  std::array<double, Dim * Dim> gradient_{};
+  std::array<double, stress_size<Dim>> stress_{};
+  Batch<Dim> batch_{};
+};
+
+inline Parameters elastic_soil()
+{
+  Parameters p;
+  p.law = LawName::linear_elastic;
+  p.density_kg_per_m3 = 1600.0;
+  p.young_modulus_pa = 1e7;
+  p.poisson_ratio = 0.3;
+  return p;
+}
+
+inline Parameters sand(double friction_deg = 33.0, double dilation_deg = 0.0)
+{
+  Parameters p = elastic_soil();
+  p.law = LawName::mohr_coulomb;
+  p.friction_angle_deg = friction_deg;
+  p.dilation_angle_deg = dilation_deg;
+  return p;
+}
+
+inline Parameters clayey(double friction_deg = 25.0, double dilation_deg = 5.0, double cohesion = 1e4,
+                         double cutoff = 3e3)
+{
+  Parameters p = sand(friction_deg, dilation_deg);
+  p.cohesion_pa = cohesion;
+  p.tension_cutoff_pa = cutoff;
+  return p;
+}
+
+inline Eigen::Vector3d principal(const Eigen::Matrix3d& stress)  // smallest first
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress).eigenvalues();
+}
+
+inline double slope(double angle_deg)
+{
+  const double s = std::sin(angle_deg * pi / 180.0);
+  return (1.0 + s) / (1.0 - s);
+}
+
+/// How far a stress is beyond yield or cut-off, Pa.
+inline double yield_excess(const Parameters& p, const Eigen::Matrix3d& stress)
+{
+  const Eigen::Vector3d s = principal(stress);
+  const double k = slope(p.friction_angle_deg);
+  return std::max(k * s(2) - s(0) - 2.0 * p.cohesion_pa * std::sqrt(k), s(2) - p.tension_cutoff_pa);
+}
+
+}  // namespace geocontainer_mpm::material::testing

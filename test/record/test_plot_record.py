@@ -1,0 +1,129 @@
+"""The pictures of a record: drawn for every kind of run, telling the right instants, clear about bad input."""
+
+import importlib.machinery
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import matplotlib.image
+import numpy
+
+WRITER, PLOT = sys.argv.pop(1), sys.argv.pop(1)
+
+
+def load_program():
+    loader = importlib.machinery.SourceFileLoader("plot_record", PLOT)
+    sys.dont_write_bytecode = True
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot_record", loader))
+    loader.exec_module(module)
+    return module
+
+
+class PlotRecord(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.program = load_program()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def record(self, name, frames, change=None):
+        path = self.path(name)
+        subprocess.run([WRITER, path, str(frames), "6"], check=True, stdout=subprocess.DEVNULL)
+        if change is not None:
+            with h5py.File(path, "r+") as file:
+                for frame in file["frames"].values():
+                    change(frame)
+        return path
+
+    def plot(self, *arguments):
+        return subprocess.run([sys.executable, PLOT, *arguments], stderr=subprocess.PIPE, text=True, timeout=120)
+
+    def expect_pictures(self, record, *arguments):
+        out = self.path(os.path.basename(record) + ".pictures")
+        run = self.plot(record, "--out", out, *arguments)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        for name in ("section.png", "history.png"):
+            picture = matplotlib.image.imread(os.path.join(out, name))
+            self.assertGreater(min(picture.shape[:2]), 300)
+            drawn = (picture[..., :3].min(axis=2) < 0.9).mean()
+            self.assertGreater(drawn, 0.01, name)
+        return out
+
+    def expect_refusal(self, *arguments, naming):
+        run = self.plot(*arguments)
+        self.assertEqual(run.returncode, 2)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn(naming, run.stderr)
+
+    def chosen(self, path):
+        record = self.program.Record(path)
+        picked = self.program.chosen_frames(record, None)
+        return [caption for _, caption in picked], [float(record.time[index]) for index, _ in picked]
+
+    def test_released_run(self):
+        path = self.record("released.h5", 201)
+        captions, times = self.chosen(path)
+        self.assertEqual(captions, ["closed", "opening", "squeezing", "release", "landing", "at rest"])
+        self.assertEqual(sorted(set(times)), times)
+        closed, opening, squeezing, release, landing, rest = times
+        self.assertTrue(4.0 <= closed <= 7.0 < opening < squeezing < 27.0, times)
+        self.assertEqual(release, 27.0)
+        self.assertTrue(27.0 < landing < 29.5, times)
+        self.assertEqual(rest, 40.0)
+        summary = self.path("summary.json")
+        with open(summary, "w", encoding="utf-8") as file:
+            json.dump({"outcome": "released", "real_time_factor": None}, file)
+        self.expect_pictures(path, "--summary", summary)
+
+    def test_coarse_output_gives_six_different_frames(self):
+        _, times = self.chosen(self.record("coarse.h5", 14))
+        self.assertEqual(len(times), 6)
+        self.assertEqual(sorted(set(times)), times)
+
+    def test_hung_up_run(self):
+        def stays(frame):
+            frame["status"].attrs["release_time_s"] = -1.0
+            frame["status"].attrs["outcome"] = numpy.bytes_("hung_up")
+
+        path = self.record("hung.h5", 81, stays)
+        captions, times = self.chosen(path)
+        self.assertEqual(captions, [""] * 6)
+        self.assertEqual((times[0] < 7.0, times[-1]), (True, 40.0))
+        self.expect_pictures(path)
+
+    def test_column_without_hull_and_sheet(self):
+        def strip(frame):
+            for name in ("hull", "geotextile", "surface"):
+                del frame[name]
+            frame["status"].attrs["release_time_s"] = -1.0
+
+        self.expect_pictures(self.record("column.h5", 9, strip), "--soil", "stress")
+
+    def test_short_run_and_chosen_times(self):
+        self.expect_pictures(self.record("one.h5", 1))
+        self.expect_pictures(self.record("some.h5", 41), "--times", "0,12.5,40")
+
+    def test_bad_input(self):
+        record, out = self.record("good.h5", 3), self.path("out")
+        self.expect_refusal(self.path("none.h5"), "--out", out, naming="none.h5")
+        self.expect_refusal(PLOT, "--out", out, naming=PLOT)
+        self.expect_refusal(record, "--out", out, "--times", "1,x", naming="--times 1,x")
+        self.expect_refusal(record, "--out", out, "--times", "1,41", naming="0 to 40 s")
+        self.expect_refusal(record, "--out", out, "--times", "nan", naming="--times nan")
+        self.expect_refusal(record, "--out", out, "--summary", PLOT, naming="--summary")
+        self.expect_refusal(record, "--out", record, naming="--out")
+        with h5py.File(self.path("empty.h5"), "w") as file:
+            file.create_group("frames")
+        self.expect_refusal(self.path("empty.h5"), "--out", out, naming="holds no frame")
+
+
+if __name__ == "__main__":
+    unittest.main()

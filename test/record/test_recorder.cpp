@@ -1,0 +1,342 @@
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/record/recorder.h"
+#include "synthetic_frame.h"
+
+namespace geocontainer_mpm::record {
+namespace {
+
+/// A folder of its own for each test.
+class RecorderTest : public testing::Test {
+protected:
+  void SetUp() override
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "recorder_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_;
+};
+
+/// Reads with HDF5's own calls, so that reading shares nothing with the writer.
+class Reader {
+public:
+  explicit Reader(const std::string& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT))
+  {
+    if (file_ < 0)
+      throw std::runtime_error("cannot open " + path);
+  }
+  ~Reader() { H5Fclose(file_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  bool has(const std::string& name) const
+  {
+    for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
+      if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0)
+        return false;
+    return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+  }
+
+  std::vector<hsize_t> extent(const std::string& name) const
+  {
+    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    const hid_t space = H5Dget_space(set);
+    std::vector<hsize_t> result(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    H5Sget_simple_extent_dims(space, result.data(), nullptr);
+    H5Sclose(space);
+    H5Dclose(set);
+    return result;
+  }
+
+  std::vector<double> numbers(const std::string& name) const
+  {
+    const auto size = extent(name);
+    std::vector<double> result(std::accumulate(size.begin(), size.end(), std::size_t{ 1 }, std::multiplies<>()));
+    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()), 0) << name;
+    H5Dclose(set);
+    return result;
+  }
+
+  std::string text(const std::string& name) const
+  {
+    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    const hid_t type = H5Dget_type(set);
+    std::string result(H5Tget_size(type), '\0');
+    H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data());
+    H5Tclose(type);
+    H5Dclose(set);
+    return result;
+  }
+
+  std::vector<double> number_attribute(const std::string& object, const std::string& name) const
+  {
+    const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Aget_space(attribute);
+    std::vector<double> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    EXPECT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, result.data()), 0) << object << " " << name;
+    H5Sclose(space);
+    H5Aclose(attribute);
+    return result;
+  }
+
+  /// Texts of an attribute, one after the other and padded with NUL.
+  std::string text_attribute(const std::string& object, const std::string& name) const
+  {
+    const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Aget_type(attribute);
+    std::string result(H5Aget_storage_size(attribute), '\0');
+    EXPECT_GE(H5Aread(attribute, type, result.data()), 0) << object << " " << name;
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return result;
+  }
+
+private:
+  hid_t file_;
+};
+
+std::vector<double> rows(const std::vector<Vec2>& points)
+{
+  std::vector<double> result;
+  for (const Vec2& point : points)
+    result.insert(result.end(), { 0.0, point[0], point[1] });
+  return result;
+}
+
+/// What the file keeps of these. One-way on purpose: GCC 12 at -O3 drops a rounding to float and back in a vector.
+std::vector<float> singles(const std::vector<double>& values)
+{
+  std::vector<float> result;
+  for (const double value : values)
+    result.push_back(static_cast<float>(value));
+  return result;
+}
+
+std::string file_text(const std::string& name)
+{
+  std::ifstream file(name);
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+using Extent = std::vector<hsize_t>;
+
+TEST_F(RecorderTest, KeepsEveryFieldOfAFrame)
+{
+  const scene::Frame frame = synthetic_frame(26.3, 8);
+  {
+    Recorder recorder(path("run.h5"), "release", "name: release\n");
+    ASSERT_EQ(recorder.write(frame), "");
+    EXPECT_EQ(recorder.frames(), 1u);
+  }
+  const Reader reader(path("run.h5"));
+  EXPECT_EQ(reader.text_attribute("/", "scene_name"), "release");
+  EXPECT_EQ(reader.text("/scene"), "name: release\n");
+  const std::string at = "/frames/000000";
+  EXPECT_EQ(reader.numbers(at + "/time"), std::vector<double>{ 26.3 });
+  EXPECT_EQ(reader.text_attribute(at + "/time", "units"), "s");
+  EXPECT_EQ(reader.number_attribute(at, "step"), std::vector<double>{ 26300.0 });
+  EXPECT_EQ(reader.number_attribute(at, "port_rad"), std::vector<double>{ frame.opening.port_rad });
+
+  const scene::SoilFrame& soil = frame.soil.front();
+  EXPECT_EQ(reader.numbers(at + "/soil/position"), rows(soil.position));
+  EXPECT_EQ(reader.extent(at + "/soil/position"), (Extent{ soil.position.size(), 3 }));
+  EXPECT_EQ(reader.text_attribute(at + "/soil/position", "units"), "m");
+  EXPECT_EQ(singles(reader.numbers(at + "/soil/velocity")), singles(rows(soil.velocity)));
+  EXPECT_EQ(singles(reader.numbers(at + "/soil/volume")), singles(soil.volume));
+  const std::vector<double> stress = reader.numbers(at + "/soil/stress");
+  ASSERT_EQ(reader.extent(at + "/soil/stress"), (Extent{ soil.stress.size(), 6 }));
+  const auto& [yy, zz, yz, xx] = soil.stress.back();
+  EXPECT_EQ(singles({ stress.end() - 6, stress.end() }), singles({ xx, 0.0, 0.0, yy, yz, zz }));
+
+  const scene::GeotextileFrame& sheet = frame.geotextile.front();
+  EXPECT_EQ(reader.numbers(at + "/geotextile/node"), rows(sheet.node));
+  EXPECT_EQ(singles(reader.numbers(at + "/geotextile/tension")), singles(sheet.tension));
+  EXPECT_EQ(singles(reader.numbers(at + "/geotextile/gauge_tension")), singles(sheet.gauge_tension));
+  EXPECT_EQ(reader.number_attribute(at + "/geotextile", "seam_strength_n_per_m"), std::vector<double>{ 102e3 });
+  const std::vector<double> pairs = reader.numbers(at + "/geotextile/connectivity");
+  ASSERT_EQ(pairs.size(), 2 * sheet.node.size());
+  EXPECT_EQ(pairs[pairs.size() - 2], static_cast<double>(sheet.node.size() - 1));
+  EXPECT_EQ(pairs.back(), 0.0);  // the last segment closes the sheet
+
+  EXPECT_EQ(reader.numbers(at + "/hull/angle"), (std::vector<double>(2, frame.opening.port_rad)));
+  std::vector<double> force = rows({ frame.boundary[0].force_n_per_m, frame.boundary[1].force_n_per_m });
+  EXPECT_EQ(reader.numbers(at + "/hull/force"), force);
+  EXPECT_EQ(reader.numbers(at + "/surface/position"), rows(frame.boundary[2].position));
+  EXPECT_EQ(reader.text_attribute(at + "/status", "outcome"), "releasing");
+  EXPECT_EQ(reader.number_attribute(at + "/status", "centroid_m"),
+            (std::vector<double>{ 0.0, frame.status.centroid_m[0], frame.status.centroid_m[1] }));
+  EXPECT_EQ(reader.number_attribute(at + "/energy", "kinetic_j_per_m"), std::vector<double>{ frame.energy.kinetic });
+}
+
+TEST_F(RecorderTest, LaysSeveralBodiesAndSheetsEndToEnd)
+{
+  scene::Frame frame = synthetic_frame(1.0, 3);
+  const scene::Frame other = synthetic_frame(30.0, 5);
+  frame.soil.push_back(other.soil.front());
+  frame.soil.back().name = "second fill";
+  frame.geotextile.push_back(other.geotextile.front());
+  frame.geotextile.back().name = "second bag";
+  {
+    Recorder recorder(path("two.h5"), "two", "");
+    ASSERT_EQ(recorder.write(frame), "");
+  }
+  const Reader reader(path("two.h5"));
+  const std::string soil = "/frames/000000/soil", sheet = "/frames/000000/geotextile";
+  const double first = static_cast<double>(frame.soil[0].position.size());
+  EXPECT_EQ(reader.number_attribute(soil, "first"), (std::vector<double>{ 0.0, first }));
+  EXPECT_EQ(reader.number_attribute(soil, "count").back(), static_cast<double>(other.soil[0].position.size()));
+  EXPECT_EQ(reader.text_attribute(soil, "name"), std::string("fill\0\0\0\0\0\0\0second fill", 22));
+  const std::vector<double> body = reader.numbers(soil + "/body");
+  EXPECT_EQ(std::accumulate(body.begin(), body.end(), 0.0), static_cast<double>(other.soil[0].position.size()));
+  const std::vector<double> position = reader.numbers(soil + "/position");
+  const std::vector<double> expected = rows(other.soil[0].position);
+  EXPECT_TRUE(std::equal(expected.rbegin(), expected.rend(), position.rbegin()));
+
+  // Each sheet closes on itself: every node begins one segment and ends one, and no segment joins the two sheets.
+  const std::vector<double> pairs = reader.numbers(sheet + "/connectivity");
+  const double nodes = static_cast<double>(frame.geotextile[0].node.size());
+  ASSERT_EQ(pairs.size(), static_cast<std::size_t>(4 * nodes));
+  for (std::size_t i = 0; i < pairs.size(); i += 2)
+    EXPECT_EQ(pairs[i] < nodes, pairs[i + 1] < nodes) << i;
+  EXPECT_EQ(pairs[pairs.size() - 1], nodes);
+}
+
+TEST_F(RecorderTest, LeavesOutWhatASceneDoesNotHave)
+{
+  scene::Frame frame;
+  frame.soil = synthetic_frame(0.0, 2).soil;
+  {
+    Recorder recorder(path("column.h5"), "column", "");
+    ASSERT_EQ(recorder.write(frame), "");
+    ASSERT_EQ(recorder.write(scene::Frame()), "");
+  }
+  const Reader reader(path("column.h5"));
+  EXPECT_TRUE(reader.has("/frames/000000/soil/position"));
+  EXPECT_FALSE(reader.has("/frames/000000/geotextile"));
+  EXPECT_FALSE(reader.has("/frames/000000/hull"));
+  EXPECT_TRUE(reader.has("/frames/000001/time"));
+  EXPECT_FALSE(reader.has("/frames/000001/soil"));
+  EXPECT_EQ(file_text(path("column.xdmf")).find("geotextile"), std::string::npos);
+}
+
+TEST_F(RecorderTest, KeepsALongScene)
+{
+  const std::string scene(200'000, 'x');
+  {
+    Recorder recorder(path("long.h5"), "long", scene);
+  }
+  EXPECT_EQ(Reader(path("long.h5")).text("/scene"), scene);
+}
+
+TEST_F(RecorderTest, HoldsManyFramesInOrder)
+{
+  const int frames = 300;
+  const scene::Frame first = synthetic_frame(0.0, 1);
+  {
+    Recorder recorder(path("many.h5"), "many", "");
+    scene::Frame frame = first;
+    for (int i = 0; i < frames; ++i) {
+      frame.time_s = i;
+      ASSERT_EQ(recorder.write(frame), "");
+    }
+    Recorder moved = std::move(recorder);
+    ASSERT_EQ(moved.write(first), "");
+    EXPECT_EQ(moved.frames(), frames + 1u);
+  }
+  const Reader reader(path("many.h5"));
+  for (int i = 0; i < frames; ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "/frames/%06d/time", i);
+    ASSERT_EQ(reader.numbers(name), std::vector<double>{ static_cast<double>(i) });
+  }
+  EXPECT_FALSE(reader.has("/frames/000301"));
+}
+
+TEST_F(RecorderTest, NamesAPathThatCannotBeWritten)
+{
+  for (const std::string& bad : { path("no/such/folder/run.h5"), folder_.string(), std::string("/dev/full") }) {
+    try {
+      Recorder(bad, "x", "");
+      ADD_FAILURE() << bad << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.value(), bad);
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(bad), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// Lets this process write no file beyond so many bytes, as a full disk would.
+class FileSizeLimit {
+public:
+  explicit FileSizeLimit(rlim_t bytes)
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit()
+  {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, SIG_DFL);
+  }
+
+private:
+  rlimit before_{};
+};
+
+TEST_F(RecorderTest, NamesAFullDiskAtTheStart)
+{
+  const FileSizeLimit full(10'000);
+  EXPECT_THROW(Recorder(path("full.h5"), "full", ""), InputError);
+}
+
+TEST_F(RecorderTest, KeepsTheFramesBeforeTheDiskWasFull)
+{
+  // Limits between whole frames of about 60 kB, so that the write that fails is a different one each time.
+  for (rlim_t limit = 300'000; limit < 440'000; limit += 1'499) {
+    std::size_t kept = 0;
+    std::string failure, again;
+    {
+      Recorder recorder(path("full.h5"), "full", "name: full\n");
+      const FileSizeLimit full(limit);
+      for (int i = 0; failure.empty() && i < 100; ++i)
+        failure = recorder.write(synthetic_frame(i, 15));
+      kept = recorder.frames();
+      again = recorder.write(synthetic_frame(99.0, 15));
+      EXPECT_EQ(recorder.frames(), kept);
+      Recorder(std::move(recorder));  // closing may not crash while the disk is still full
+    }
+    EXPECT_EQ(failure,
+              "record stopped after " + std::to_string(kept) + " frames: no room for the next frame: File too large");
+    EXPECT_EQ(again, failure);
+    ASSERT_GT(kept, 1u);
+    const Reader reader(path("full.h5"));
+    for (std::size_t i = 0; i < kept; ++i)
+      EXPECT_EQ(reader.extent("/frames/00000" + std::to_string(i) + "/soil/position"), (Extent{ 721, 3 }));
+    const std::string xml = file_text(path("full.xdmf"));
+    EXPECT_EQ(xml.substr(xml.size() - 8), "</Xdmf>\n");
+  }
+}
+
+}  // namespace
+}  // namespace geocontainer_mpm::record

@@ -1,0 +1,256 @@
+#include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geocontainer_mpm/ros/conversions.h"
+
+namespace geocontainer_mpm::ros_bridge {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+scene::Frame small_frame()
+{
+  scene::Frame frame;
+  frame.time_s = 2.5;
+  scene::SoilFrame soil;
+  soil.name = "sand";
+  for (int i = 0; i < 5; ++i) {
+    soil.position.emplace_back(0.1 * i, -1.0 - i);
+    soil.velocity.emplace_back(3.0, -4.0);
+    soil.stress.push_back({ -1000.0 * i, -2000.0 * i, 50.0, -600.0 * i });
+    soil.volume.push_back(0.01);
+  }
+  frame.soil.push_back(soil);
+  scene::GeotextileFrame sheet;
+  sheet.name = "container";
+  sheet.node = { { -1.0, -2.0 }, { 1.0, -2.0 }, { 0.0, -1.0 } };
+  sheet.velocity.assign(3, Vec2::Zero());
+  sheet.tension = { 1e3, 2e3, 3e3 };
+  sheet.gauge_tension = { 1e4, 2e4, 3e4 };
+  sheet.gauge_length_m = 0.5;
+  sheet.strength_n_per_m = 2e5;
+  sheet.seam_strength_n_per_m = 1e5;
+  frame.geotextile.push_back(sheet);
+  scene::BoundaryFrame bed;
+  bed.name = "bed";
+  bed.position = { { -6.0, -9.3 }, { 0.0, -9.3 }, { 6.0, -9.3 } };
+  frame.boundary.push_back(bed);
+  return frame;
+}
+
+Progress small_progress()
+{
+  Progress progress;
+  progress.state = RunState::running;
+  progress.time_s = 2.5;
+  progress.opening = { 0.1, 0.12 };
+  progress.seam_strength_n_per_m = 1e5;
+  progress.status.outcome = scene::Outcome::releasing;
+  progress.status.peak_tension_n_per_m = 3e4;
+  progress.status.peak_tension_time_s = 1.25;
+  progress.status.peak_tension_position_m = Vec2(1.0, -2.0);
+  progress.lag_s = 0.4;
+  progress.real_time_factor = 3.0;
+  return progress;
+}
+
+/// Barge turned by 90 degrees about z and lifted by 10 m: port becomes -x of the world.
+View turned_view()
+{
+  View view;
+  view.frame_id = "map";
+  view.stamp = ros::Time(100, 5);
+  view.width_m = 4.0;
+  view.pose = Eigen::Translation3d(0.0, 0.0, 10.0) * Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ());
+  return view;
+}
+
+TEST(Conversions, ContainerShapeIsTheSheetInTheViewsFrame)
+{
+  const geometry_msgs::PolygonStamped shape = to_container_shape(small_frame().geotextile[0], turned_view());
+  EXPECT_EQ(shape.header.frame_id, "map");
+  EXPECT_EQ(shape.header.stamp, ros::Time(100, 5));
+  ASSERT_EQ(shape.polygon.points.size(), 3u);
+  EXPECT_NEAR(shape.polygon.points[1].x, -1.0, 1e-6);
+  EXPECT_NEAR(shape.polygon.points[1].y, 0.0, 1e-6);
+  EXPECT_NEAR(shape.polygon.points[1].z, 8.0, 1e-6);
+}
+
+TEST(Conversions, ForcesCarryGaugeTensionAndItsShareOfTheSeam)
+{
+  const GeotextileForces forces = to_geotextile_forces(small_frame().geotextile[0], View());
+  EXPECT_EQ(forces.name, "container");
+  EXPECT_EQ(forces.tension, (std::vector<double>{ 1e4, 2e4, 3e4 }));
+  ASSERT_EQ(forces.utilisation.size(), 3u);
+  EXPECT_DOUBLE_EQ(forces.utilisation[2], 0.3);
+  EXPECT_DOUBLE_EQ(forces.nodes[0].y, -1.0);
+  EXPECT_DOUBLE_EQ(forces.nodes[0].z, -2.0);
+  EXPECT_DOUBLE_EQ(forces.nodes[0].x, 0.0);
+}
+
+TEST(Conversions, SoilCloudHasSpeedAndMeanStressOfEveryStridethParticle)
+{
+  const sensor_msgs::PointCloud2 cloud = to_soil_cloud(small_frame(), turned_view(), 2);
+  ASSERT_EQ(cloud.width * cloud.height, 3u);  // particles 0, 2 and 4
+  sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), z(cloud, "z"), speed(cloud, "speed"),
+      mean_stress(cloud, "mean_stress");
+  ++x, ++z, ++speed, ++mean_stress;
+  EXPECT_NEAR(*x, -0.2, 1e-6);
+  EXPECT_NEAR(*z, 10.0 - 3.0, 1e-6);
+  EXPECT_NEAR(*speed, 5.0, 1e-6);
+  EXPECT_NEAR(*mean_stress, -(2000.0 + 4000.0 + 1200.0) / 3.0, 1e-3);
+}
+
+TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
+{
+  Progress progress = small_progress();
+  ReleaseStatus status = to_release_status(progress, turned_view());
+  EXPECT_EQ(status.outcome, ReleaseStatus::RELEASING);
+  EXPECT_LT(status.release_time.toSec(), 0.0);
+  EXPECT_NEAR(status.peak_tension_time.toSec(), 1.25, 1e-9);
+  EXPECT_NEAR(status.peak_tension_position.x, -1.0, 1e-12);
+  EXPECT_NEAR(status.peak_tension_position.z, 8.0, 1e-12);
+  EXPECT_DOUBLE_EQ(status.peak_utilisation, 0.3);
+  EXPECT_DOUBLE_EQ(status.starboard, 0.12);
+  EXPECT_DOUBLE_EQ(status.lag, 0.4);
+  EXPECT_FALSE(status.stopped);
+
+  progress.state = RunState::stopped;
+  progress.failure = { "a particle left the grid", Vec2(1.5, -2.0), 2.4 };
+  status = to_release_status(progress, View());
+  EXPECT_TRUE(status.stopped);
+  EXPECT_NE(status.message.find("a particle left the grid"), std::string::npos);
+  EXPECT_EQ(status.message.find('\n'), std::string::npos);
+}
+
+TEST(Conversions, EveryOutcomeHasItsNumberOnTheWire)
+{
+  const std::pair<scene::Outcome, int> outcomes[] = { { scene::Outcome::waiting, ReleaseStatus::WAITING },
+                                                      { scene::Outcome::releasing, ReleaseStatus::RELEASING },
+                                                      { scene::Outcome::released, ReleaseStatus::RELEASED },
+                                                      { scene::Outcome::hung_up, ReleaseStatus::HUNG_UP },
+                                                      { scene::Outcome::none, ReleaseStatus::NONE } };
+  for (const auto& [outcome, number] : outcomes) {
+    Progress progress = small_progress();
+    progress.status.outcome = outcome;
+    EXPECT_EQ(to_release_status(progress, View()).outcome, number);
+  }
+}
+
+TEST(Conversions, JointStatesOpenBothHalvesPositive)
+{
+  const sensor_msgs::JointState state = to_hull_joint_states({ 0.2, 0.3 }, ros::Time(7, 0));
+  EXPECT_EQ(state.name, (std::vector<std::string>{ "hull_port_joint", "hull_starboard_joint" }));
+  EXPECT_EQ(state.position, (std::vector<double>{ 0.2, 0.3 }));
+  EXPECT_EQ(state.header.stamp, ros::Time(7, 0));
+}
+
+TEST(Conversions, MarkersKeepIdsCountsAndLifetimeWhileTheContainerMoves)
+{
+  scene::Frame frame = small_frame();
+  const visualization_msgs::MarkerArray first = to_markers(frame, small_progress(), turned_view());
+  for (Vec2& node : frame.geotextile[0].node)
+    node *= 1.7;
+  frame.geotextile[0].gauge_tension = { 9e4, 2e5, 0.0 };
+  const visualization_msgs::MarkerArray second = to_markers(frame, small_progress(), View());
+  ASSERT_EQ(first.markers.size(), 3u);  // ribbon, bed, legend
+  ASSERT_EQ(second.markers.size(), first.markers.size());
+  for (std::size_t i = 0; i < first.markers.size(); ++i) {
+    EXPECT_EQ(first.markers[i].ns, second.markers[i].ns);
+    EXPECT_EQ(first.markers[i].id, second.markers[i].id);
+    EXPECT_EQ(first.markers[i].points.size(), second.markers[i].points.size());
+    EXPECT_EQ(first.markers[i].lifetime, ros::Duration(0));
+    EXPECT_EQ(first.markers[i].header.frame_id, "map");
+  }
+  const visualization_msgs::Marker& ribbon = first.markers[0];
+  EXPECT_EQ(ribbon.type, visualization_msgs::Marker::TRIANGLE_LIST);
+  EXPECT_EQ(ribbon.points.size(), 18u);  // 3 segments of 2 triangles
+  EXPECT_EQ(ribbon.colors.size(), ribbon.points.size());
+  for (const auto& point : ribbon.points)
+    EXPECT_TRUE(point.x == 0.0 || point.x == -4.0);
+}
+
+TEST(Conversions, LegendNamesPeakTensionOutcomeAndRealTimeFactor)
+{
+  const visualization_msgs::MarkerArray array = to_markers(small_frame(), small_progress(), View());
+  const visualization_msgs::Marker& legend = array.markers.back();
+  EXPECT_EQ(legend.type, visualization_msgs::Marker::TEXT_VIEW_FACING);
+  EXPECT_NE(legend.text.find("releasing"), std::string::npos);
+  EXPECT_NE(legend.text.find("30.0 kN/m"), std::string::npos);
+  EXPECT_NE(legend.text.find("real time x 3.0"), std::string::npos);
+}
+
+TEST(Conversions, ColourGoesFromGreenToRedAndStandsOutBeyondFailure)
+{
+  const Eigen::Vector3f none = utilisation_colour(0.0), full = utilisation_colour(1.0), over = utilisation_colour(1.01);
+  EXPECT_GT(none.y(), none.x());
+  EXPECT_GT(full.x(), 5.0f * full.y());
+  EXPECT_GT(over.z(), 0.5f);
+  for (double use = -0.5; use < 2.0; use += 0.05) {
+    EXPECT_GE(utilisation_colour(use).minCoeff(), 0.0f);
+    EXPECT_LE(utilisation_colour(use).maxCoeff(), 1.0f);
+  }
+}
+
+TEST(Conversions, WhatIsNotFiniteIsNamed)
+{
+  EXPECT_EQ(first_non_finite(small_frame()), "");
+  EXPECT_EQ(first_non_finite(small_progress()), "");
+
+  scene::Frame frame = small_frame();
+  frame.soil[0].stress[3][2] = nan;
+  EXPECT_EQ(first_non_finite(frame), "sand stress");
+  frame = small_frame();
+  frame.soil[0].velocity[4].y() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(first_non_finite(frame), "sand velocity");
+  frame = small_frame();
+  frame.soil[0].position[0].x() = nan;
+  EXPECT_EQ(first_non_finite(frame), "sand position");
+  frame = small_frame();
+  frame.geotextile[0].node[1].y() = nan;
+  EXPECT_EQ(first_non_finite(frame), "container node");
+  frame = small_frame();
+  frame.geotextile[0].gauge_tension[1] = nan;
+  EXPECT_EQ(first_non_finite(frame), "container tension");
+  frame = small_frame();
+  frame.boundary[0].position[2].y() = nan;
+  EXPECT_EQ(first_non_finite(frame), "bed position");
+
+  Progress progress = small_progress();
+  progress.opening.starboard_rad = nan;
+  EXPECT_EQ(first_non_finite(progress), "opening");
+  progress = small_progress();
+  progress.status.centroid_m.y() = nan;
+  EXPECT_EQ(first_non_finite(progress), "status");
+}
+
+TEST(Conversions, JointStatesIn)
+{
+  sensor_msgs::JointState message;
+  message.header.stamp = ros::Time(12, 34);
+  message.name = { "crane", "hull_starboard_joint", "hull_port_joint" };
+  message.position = { 9.0, 0.2, 0.1 };
+  const auto sample = to_sample(message, OpeningJoints());
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->stamp_ns, 12'000'000'034);
+  EXPECT_EQ(sample->angles.port_rad, 0.1);
+  EXPECT_EQ(sample->angles.starboard_rad, 0.2);
+
+  message.position.pop_back();  // a name without its position: rejected and counted as not finite
+  EXPECT_TRUE(std::isnan(to_sample(message, OpeningJoints())->angles.port_rad));
+  message.name = { "crane" };
+  message.position = { 9.0 };
+  EXPECT_FALSE(to_sample(message, OpeningJoints()));
+}
+
+TEST(Conversions, StampsBeforeTheFirstSampleAreTheCallers)
+{
+  EXPECT_EQ(to_time(0, ros::Time(3, 4)), ros::Time(3, 4));
+  EXPECT_EQ(to_time(1'750'150'800'000'000'007, ros::Time()), ros::Time(1'750'150'800, 7));
+}
+
+}  // namespace
+}  // namespace geocontainer_mpm::ros_bridge
