@@ -12,11 +12,11 @@ namespace geocontainer_mpm {
 class InputError : public std::runtime_error {
 public:
   InputError(std::string source, std::string key, std::string value, std::string allowed)
-    : std::runtime_error(compose(source, key, value, allowed))
-    , source_(std::move(source))
-    , key_(std::move(key))
-    , value_(std::move(value))
-    , allowed_(std::move(allowed))
+      : std::runtime_error(compose(source, key, value, allowed))
+      , source_(std::move(source))
+      , key_(std::move(key))
+      , value_(std::move(value))
+      , allowed_(std::move(allowed))
   {
   }
 

@@ -30,17 +30,6 @@ double cross(const Vec2& a, const Vec2& b)
 
 }  // namespace
 
-RigidPose RigidPose::about(const Vec2& pivot_m, double angle_rad)
-{
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  RigidPose pose;
-  pose.pivot_m = pivot_m;
-  pose.angle_rad = angle_rad;
-  pose.rotation << c, -s, s, c;
-  return pose;
-}
-
 SplitHull::SplitHull(const Vec2& hinge_m, std::vector<Vec2> port_section_m, const std::string& key_prefix)
     : hinge_m_(hinge_m), port_(std::move(port_section_m))
 {
@@ -67,28 +56,23 @@ const std::vector<Vec2>& SplitHull::closed_section_m(HullHalf half) const
   return half == HullHalf::port ? port_ : starboard_;
 }
 
-RigidPose SplitHull::pose(HullHalf half, double opening_rad) const
+contact::RigidPose SplitHull::pose(HullHalf half, double opening_rad) const
 {
-  return half == HullHalf::port ? RigidPose::about(hinge_m_, opening_rad)
-                                : RigidPose::about(Vec2(-hinge_m_[0], hinge_m_[1]), -opening_rad);
+  return half == HullHalf::port ? contact::RigidPose::rotation(opening_rad, hinge_m_)
+                                : contact::RigidPose::rotation(-opening_rad, Vec2(-hinge_m_[0], hinge_m_[1]));
 }
 
-RigidPose SplitHull::pose(HullHalf half, const OpeningAngles& opening) const
+contact::RigidPose SplitHull::pose(HullHalf half, const OpeningAngles& opening) const
 {
   return pose(half, half == HullHalf::port ? opening.port_rad : opening.starboard_rad);
 }
 
-double SplitHull::pose_rate(HullHalf half, const OpeningAngles& opening_rates)
-{
-  return half == HullHalf::port ? opening_rates.port_rad : -opening_rates.starboard_rad;
-}
-
 std::vector<Vec2> SplitHull::section_m(HullHalf half, const OpeningAngles& opening) const
 {
-  const RigidPose turned = pose(half, opening);
+  const contact::RigidPose turned = pose(half, opening);
   std::vector<Vec2> section = closed_section_m(half);
   for (Vec2& point : section)
-    point = turned.position(point);
+    point = turned.apply(point);
   return section;
 }
 
@@ -96,12 +80,12 @@ double SplitHull::slot_width_m(const OpeningAngles& opening) const
 {
   double port_y = std::numeric_limits<double>::infinity();
   double starboard_y = -std::numeric_limits<double>::infinity();
-  const RigidPose port = pose(HullHalf::port, opening);
-  const RigidPose starboard = pose(HullHalf::starboard, opening);
+  const contact::RigidPose port = pose(HullHalf::port, opening);
+  const contact::RigidPose starboard = pose(HullHalf::starboard, opening);
   for (const Vec2& point : port_)
-    port_y = std::min(port_y, port.position(point)[0]);
+    port_y = std::min(port_y, port.apply(point)[0]);
   for (const Vec2& point : starboard_)
-    starboard_y = std::max(starboard_y, starboard.position(point)[0]);
+    starboard_y = std::max(starboard_y, starboard.apply(point)[0]);
   return port_y - starboard_y;
 }
 
@@ -109,9 +93,9 @@ double SplitHull::lowest_level_m(const OpeningAngles& opening) const
 {
   double level = std::numeric_limits<double>::infinity();
   for (const HullHalf half : { HullHalf::port, HullHalf::starboard }) {
-    const RigidPose turned = pose(half, opening);
+    const contact::RigidPose turned = pose(half, opening);
     for (const Vec2& point : closed_section_m(half))
-      level = std::min(level, turned.position(point)[1]);
+      level = std::min(level, turned.apply(point)[1]);
   }
   return level;
 }
@@ -149,7 +133,7 @@ void append_arc(std::vector<Vec2>& line_m, const Corner& corner, double radius_m
   const Vec2 center = start + side * radius_m * Vec2(-corner.in[1], corner.in[0]);
   const int chords = std::max(1, static_cast<int>(std::ceil(std::abs(corner.turn_rad) / max_turn_rad)));
   for (int k = 0; k <= chords; ++k)
-    line_m.push_back(RigidPose::about(center, corner.turn_rad * k / chords).position(start));
+    line_m.push_back(contact::RigidPose::rotation(corner.turn_rad * k / chords, center).apply(start));
 }
 
 }  // namespace

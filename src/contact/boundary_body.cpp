@@ -7,7 +7,7 @@
 namespace geocontainer_mpm::contact {
 
 BoundaryBody::BoundaryBody(std::string name, Surface surface, double friction, double spacing)
-  : name_(std::move(name)), surface_(std::move(surface)), friction_(friction)
+    : name_(std::move(name)), surface_(std::move(surface)), friction_(friction)
 {
   // Particles sit at the middle of equal pieces of each segment, so that every one has one clear normal.
   const std::vector<Vec2>& line = surface_.line();

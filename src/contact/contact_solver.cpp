@@ -39,15 +39,15 @@ bool is_near(const BoundaryBody& body, const mpm::Grid<2>& grid)
 void ContactSolver::add_contact(const Vec2& point, const Nearest& surface, double gap, double dt,
                                 const mpm::Grid<2>& grid, Contact& contact) const
 {
-  const mpm::Stencil<2> s =
-      mpm::make_stencil<2>({ point[0], point[1] }, grid.origin(), grid.dx(), grid.inverse_dx());
+  const mpm::Stencil<2> s = mpm::make_stencil<2>({ point[0], point[1] }, grid.origin(), grid.dx(), grid.inverse_dx());
   contact.compliance = 0.0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const auto k = static_cast<std::size_t>(3 * i + j);
       contact.node[k] = static_cast<std::uint32_t>(grid.index({ s.base[0] + i, s.base[1] + j }));
       const double mass = grid.nodes()[contact.node[k]][mass_slot];
-      contact.weight[k] = mass > 0.0 ? s.weight[0][static_cast<std::size_t>(i)] * s.weight[1][static_cast<std::size_t>(j)] : 0.0;
+      contact.weight[k] =
+          mass > 0.0 ? s.weight[0][static_cast<std::size_t>(i)] * s.weight[1][static_cast<std::size_t>(j)] : 0.0;
       if (mass > 0.0)
         contact.compliance += contact.weight[k] * contact.weight[k] / mass;
     }
@@ -99,7 +99,8 @@ double ContactSolver::relax(Contact& contact, mpm::Grid<2>& grid) const
     sum += contact.weight[k] * grid.nodes()[contact.node[k]];
   const Vec2 slip = Vec2(sum[0], sum[1]) - contact.velocity;
   const Vec2 tangent = left_normal(contact.normal);
-  const double pressed = std::max(0.0, contact.pressed + (contact.approach - slip.dot(contact.normal)) / contact.compliance);
+  const double pressed =
+      std::max(0.0, contact.pressed + (contact.approach - slip.dot(contact.normal)) / contact.compliance);
   const double limit = contact.friction * pressed;
   const double dragged = std::clamp(contact.dragged - slip.dot(tangent) / contact.compliance, -limit, limit);
   const Vec2 impulse = (pressed - contact.pressed) * contact.normal + (dragged - contact.dragged) * tangent;

@@ -49,7 +49,8 @@ Nearest Surface::nearest(const Vec2& point) const
     const Vec2 mean = (normal + left_normal(tangent_[other])).normalized();
     const double distance = std::sqrt(square);
     const bool free_side = apart.dot(mean) >= 0.0;
-    result = { free_side ? distance : -distance, distance > 0.0 ? Vec2(apart / (free_side ? distance : -distance)) : mean };
+    result = { free_side ? distance : -distance,
+               distance > 0.0 ? Vec2(apart / (free_side ? distance : -distance)) : mean };
   }
   return result;
 }

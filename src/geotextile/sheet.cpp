@@ -32,8 +32,8 @@ std::vector<Vec2> resample(const std::vector<Vec2>& outline, std::size_t count)
   return points;
 }
 
-/// Weight differences w(b) - w(a) of two neighbouring points over the nodes that either reaches: at most 5 x 5 while the
-/// points are less than two cells apart.
+/// Weight differences w(b) - w(a) of two neighbouring points over the nodes that either reaches: at most 5 x 5 while
+/// the points are less than two cells apart.
 struct DifferencePatch {
   std::array<int, 2> base;
   std::array<std::array<double, 6>, 6> value;
@@ -52,7 +52,8 @@ DifferencePatch difference(const mpm::Stencil<2>& a, const mpm::Stencil<2>& b)
       for (int j = 0; j < 3; ++j) {
         const int row = s.base[0] + i - patch.base[0], column = s.base[1] + j - patch.base[1];
         if (row < 6 && column < 6)
-          patch.value[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] += sign * s.weight[0][i] * s.weight[1][j];
+          patch.value[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] +=
+              sign * s.weight[0][i] * s.weight[1][j];
       }
   };
   add(b, 1.0);
@@ -108,8 +109,8 @@ void Sheet::gauge_tension(std::vector<double>& result) const
 {
   // All rest lengths are equal, so the window is a number of segments: the odd number nearest to the gauge length.
   const std::size_t n = segments();
-  const auto half = static_cast<std::size_t>(
-      std::max(0.0, std::round(0.5 * (parameters_.gauge_length / rest_length_[0] - 1.0))));
+  const auto half =
+      static_cast<std::size_t>(std::max(0.0, std::round(0.5 * (parameters_.gauge_length / rest_length_[0] - 1.0))));
   const std::size_t reach = std::min(half, (n - 1) / 2);
   result.resize(n);
   for (std::size_t i = 0; i < n; ++i) {

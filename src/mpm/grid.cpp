@@ -8,7 +8,7 @@ namespace geocontainer_mpm::mpm {
 template <int Dim>
 Grid<Dim>::Grid(const Vec<Dim>& lower, const Vec<Dim>& upper, double dx,
                 const std::array<FaceCondition, 2 * Dim>& faces)
-  : dx_(dx), inverse_dx_(1.0 / dx), origin_(lower - Vec<Dim>::Constant(margin * dx)), faces_(faces)
+    : dx_(dx), inverse_dx_(1.0 / dx), origin_(lower - Vec<Dim>::Constant(margin * dx)), faces_(faces)
 {
   std::size_t total = 1;
   for (int d = 0; d < Dim; ++d) {

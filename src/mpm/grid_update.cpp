@@ -45,9 +45,8 @@ void visit_face(const Grid<Dim>& grid, int d, int side, Beyond&& beyond, OnFace&
     from[d] = face + outwards * depth;
     to[d] = face - outwards * depth;
     const auto shift = static_cast<std::ptrdiff_t>(grid.index(to)) - static_cast<std::ptrdiff_t>(grid.index(from));
-    visit_layer(from[d], [&](std::size_t i) {
-      beyond(i, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + shift));
-    });
+    visit_layer(from[d],
+                [&](std::size_t i) { beyond(i, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + shift)); });
   }
 }
 

@@ -23,7 +23,9 @@ typename Grid<Dim>::Force stress_column(const Particles<Dim>& particles, std::si
   if constexpr (Dim == 2)
     return j == 0 ? Force{ s(0), s(2) } : Force{ s(2), s(1) };
   else
-    return j == 0 ? Force{ s(0), s(3), s(4), 0.0 } : j == 1 ? Force{ s(3), s(1), s(5), 0.0 } : Force{ s(4), s(5), s(2), 0.0 };
+    return j == 0   ? Force{ s(0), s(3), s(4), 0.0 }
+           : j == 1 ? Force{ s(3), s(1), s(5), 0.0 }
+                    : Force{ s(4), s(5), s(2), 0.0 };
 }
 
 /// Scatters one particle. `Source` says at compile time what pushes: the body's stress or the sheet's external force.
@@ -113,8 +115,7 @@ inline void gather(const Grid<Dim>& grid, double dt, bool want_gradient, Particl
     value = s.weight[last][0] * nodes[0] + s.weight[last][1] * nodes[1] + s.weight[last][2] * nodes[2];
     value_moment = s.weight[last][0] * s.offset[last][0] * nodes[0] + s.weight[last][1] * s.offset[last][1] * nodes[1] +
                    s.weight[last][2] * s.offset[last][2] * nodes[2];
-    value_gradient =
-        s.gradient[last][0] * nodes[0] + s.gradient[last][1] * nodes[1] + s.gradient[last][2] * nodes[2];
+    value_gradient = s.gradient[last][0] * nodes[0] + s.gradient[last][1] * nodes[1] + s.gradient[last][2] * nodes[2];
   };
 
   Node value, value_moment, value_gradient;

@@ -79,7 +79,7 @@ void Model::survey()
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vec2 x(particles.position[0][p], particles.position[1][p]);
       const Vec2 v(particles.velocity[0][p], particles.velocity[1][p]);
-      const char* cause = !x.allFinite() || !v.allFinite()            ? "is not finite any more"
+      const char* cause = !x.allFinite() || !v.allFinite()             ? "is not finite any more"
                           : has_volume && !(particles.volume[p] > 0.0) ? "has lost its volume"
                           : (x.array() < lower_.array()).any() || (x.array() > upper_.array()).any() ? "left the grid"
                                                                                                      : nullptr;
@@ -298,8 +298,8 @@ double Model::potential_energy() const
   double energy = 0.0;
   const auto add = [&](const mpm::Particles<2>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p)
-      energy -= particles.weight_mass[p] *
-                (gravity_[0] * particles.position[0][p] + gravity_[1] * particles.position[1][p]);
+      energy -=
+          particles.weight_mass[p] * (gravity_[0] * particles.position[0][p] + gravity_[1] * particles.position[1][p]);
   };
   for (const Body& body : bodies_)
     add(body.particles);
@@ -314,8 +314,8 @@ double Model::gravity_power() const
   double power = 0.0;
   const auto add = [&](const mpm::Particles<2>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p)
-      power += particles.weight_mass[p] *
-               (gravity_[0] * particles.velocity[0][p] + gravity_[1] * particles.velocity[1][p]);
+      power +=
+          particles.weight_mass[p] * (gravity_[0] * particles.velocity[0][p] + gravity_[1] * particles.velocity[1][p]);
   };
   for (const Body& body : bodies_)
     add(body.particles);
@@ -347,8 +347,8 @@ EnergyFrame Model::energy() const
   const double kinetic = e.kinetic - ledger_.kinetic_at_start;
   const double elastic = e.elastic - ledger_.elastic_at_start;
   const double potential = e.potential + 0.5 * last_dt_ * gravity_power() - ledger_.potential_at_start;
-  const double exchanged = 0.5 * (std::abs(kinetic) + std::abs(elastic) + std::abs(potential) +
-                                  std::abs(e.dissipated) + std::abs(e.work_in));
+  const double exchanged = 0.5 * (std::abs(kinetic) + std::abs(elastic) + std::abs(potential) + std::abs(e.dissipated) +
+                                  std::abs(e.work_in));
   const double error = std::abs(kinetic + elastic + potential + e.dissipated - e.work_in);
   e.relative_balance_error = exchanged > 0.0 ? error / exchanged : 0.0;
   return e;

@@ -16,14 +16,6 @@ constexpr double boundary_spacing_cells = 0.5;
 /// A rounded corner becomes chords that turn by no more than this, rad.
 constexpr double arc_turn_rad = 0.3;
 
-std::array<mpm::FaceCondition, 4> grid_faces(const GridDescription& grid)
-{
-  std::array<mpm::FaceCondition, 4> faces{};
-  std::transform(grid.faces.begin(), grid.faces.end(), faces.begin(),
-                 [](FaceCondition face) { return static_cast<mpm::FaceCondition>(face); });
-  return faces;
-}
-
 std::shared_ptr<mpm::ThreadTeam> make_team(int threads)
 {
   if (threads < 1)
@@ -47,14 +39,14 @@ void set_k0_stress(const BodyDescription& description, double density, const std
 }  // namespace
 
 Model::Model(const SceneDescription& scene, int threads)
-  : team_(make_team(threads))
-  , gravity_(scene.gravity_m_per_s2)
-  , time_step_factor_(scene.numerics.time_step_factor)
-  , max_step_(scene.numerics.max_step_s)
-  , max_travel_(scene.numerics.max_travel_cells * scene.grid.cell_size_m)
-  , lower_(scene.grid.lower_m)
-  , upper_(scene.grid.upper_m)
-  , grid_(lower_, upper_, scene.grid.cell_size_m, grid_faces(scene.grid))
+    : team_(make_team(threads))
+    , gravity_(scene.gravity_m_per_s2)
+    , time_step_factor_(scene.numerics.time_step_factor)
+    , max_step_(scene.numerics.max_step_s)
+    , max_travel_(scene.numerics.max_travel_cells * scene.grid.cell_size_m)
+    , lower_(scene.grid.lower_m)
+    , upper_(scene.grid.upper_m)
+    , grid_(lower_, upper_, scene.grid.cell_size_m, scene.grid.faces)
 {
   build_bodies(scene);
   build_sheets(scene);

@@ -28,8 +28,7 @@ ReleaseWatch::ReleaseWatch(const SceneDescription& scene) : hung_up_after_s_(sce
   }
 }
 
-void ReleaseWatch::observe(const Model& model, double time_s, const barge::OpeningAngles& opening, bool resting,
-                           double still_since_s)
+void ReleaseWatch::observe(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
 {
   if (initial_volume_ < 0.0)
     initial_volume_ = soil_volume(model);
@@ -48,11 +47,10 @@ void ReleaseWatch::observe(const Model& model, double time_s, const barge::Openi
     }
   }
   if (hull_)
-    judge(model, time_s, opening, resting, still_since_s);
+    judge(model, time_s, opening, still_for_s);
 }
 
-void ReleaseWatch::judge(const Model& model, double time_s, const barge::OpeningAngles& opening, bool resting,
-                         double still_since_s)
+void ReleaseWatch::judge(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
 {
   if (outcome_ == Outcome::released || (outcome_ == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
     return;
@@ -65,7 +63,7 @@ void ReleaseWatch::judge(const Model& model, double time_s, const barge::Opening
     outcome_ = Outcome::released;
     release_time_s_ = time_s;
   } else {
-    outcome_ = resting && time_s - still_since_s >= hung_up_after_s_ ? Outcome::hung_up : Outcome::releasing;
+    outcome_ = still_for_s >= hung_up_after_s_ ? Outcome::hung_up : Outcome::releasing;
   }
 }
 
@@ -104,7 +102,8 @@ StatusFrame ReleaseWatch::status(const Model& model) const
   return status;
 }
 
-void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force, Frame& frame)
+void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force,
+                Frame& frame)
 {
   for (const Body& body : model.bodies()) {
     const mpm::Particles<2>& particles = body.particles;

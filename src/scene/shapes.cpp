@@ -37,7 +37,7 @@ std::vector<Vec2> hopper_outline(double area, const HullDescription& hull)
     const Vec2 a = wall[k], b = wall[k + 1];
     const double height = b[1] - a[1];
     if (!(height > 0.0))
-      break;  // the hopper closes again: nothing can be filled above
+      break;                                     // the hopper closes again: nothing can be filled above
     const double band = (a[0] + b[0]) * height;  // both halves
     if (filled + band < area) {
       filled += band;

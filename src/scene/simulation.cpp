@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,8 @@
 namespace geocontainer_mpm::scene {
 namespace {
 
-/// Settling under gravity: damping as part of the lowest frequency's critical value, how still is still enough, and when
-/// to give up.
+/// Settling under gravity: damping as part of the lowest frequency's critical value, how still is still enough, and
+/// when to give up.
 constexpr double settling_damping = 0.5;
 constexpr double settled_part_of_rest_velocity = 0.25;
 constexpr double settled_for_s = 0.1;
@@ -24,6 +25,13 @@ constexpr double longest_settling_s = 10.0;
 barge::OpeningSignalParameters signal_parameters(const SceneDescription& scene)
 {
   return scene.hull ? scene.hull->signal : barge::OpeningSignalParameters{};
+}
+
+std::optional<barge::SplitHull> make_hull(const SceneDescription& scene)
+{
+  if (!scene.hull)
+    return std::nullopt;
+  return barge::SplitHull(scene.hull->hinge_m, scene.hull->port_section_m, "hull");
 }
 
 }  // namespace
@@ -63,15 +71,16 @@ struct Simulation::State {
   };
 
   State(const SceneDescription& description, int threads)
-    : scene(description)
-    , model(scene, threads)
-    , opening(signal_parameters(scene))
-    , watch(scene)
-    , settled(settle())
+      : scene(description)
+      , model(scene, threads)
+      , opening(signal_parameters(scene))
+      , hull(make_hull(scene))
+      , watch(scene)
+      , settled(settle())
   {
     progress.interval_impulse.assign(model.boundaries().size(), Vec2::Zero());
     progress.mean_force = progress.interval_impulse;
-    watch.observe(model, progress.time_s, {}, progress.resting, progress.still_since_s);
+    watch.observe(model, 0.0, {}, 0.0);
   }
 
   bool damp_to_rest(double furthest_slide_m);
@@ -80,20 +89,21 @@ struct Simulation::State {
   barge::OpeningAngles angles_at(double time_s) const;
   double output_time_s() const { return static_cast<double>(progress.next_frame) * scene.time.output_interval_s; }
   bool output_reached();
-  bool sleep();
+  double still_for_s() const;
   bool step_once(Advance& result);
   bool rest_on(Advance& result);
 
   SceneDescription scene;
   Model model;
   barge::OpeningSignal opening;
+  std::optional<barge::SplitHull> hull;
   ReleaseWatch watch;
   Progress progress;
   Model settled;  ///< what reset() goes back to
 };
 
-/// Damped steps with the hull closed until everything is still. False if that did not happen, or the material slid further
-/// than `furthest_slide_m` on the way.
+/// Damped steps with the hull closed until everything is still. False if that did not happen, or the material slid
+/// further than `furthest_slide_m` on the way.
 bool Simulation::State::damp_to_rest(double furthest_slide_m)
 {
   const std::vector<contact::RigidPose> closed = poses({});
@@ -114,8 +124,9 @@ bool Simulation::State::damp_to_rest(double furthest_slide_m)
   return true;
 }
 
-/// Lets bodies that ask for it come to rest under gravity with the hull closed: first held where they touch, then with their
-/// true friction; where that cannot hold them, the held state is the start. Returns the state that a run starts from.
+/// Lets bodies that ask for it come to rest under gravity with the hull closed: first held where they touch, then with
+/// their true friction; where that cannot hold them, the held state is the start. Returns the state that a run starts
+/// from.
 Model Simulation::State::settle()
 {
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
@@ -134,10 +145,10 @@ Model Simulation::State::settle()
 std::vector<contact::RigidPose> Simulation::State::poses(const barge::OpeningAngles& angles) const
 {
   std::vector<contact::RigidPose> result(model.boundaries().size());
-  if (model.hull_index() >= 0) {
+  if (hull) {
     const auto port = static_cast<std::size_t>(model.hull_index());
-    result[port] = contact::RigidPose::rotation(angles.port_rad, scene.hull->hinge_m);
-    result[port + 1] = contact::RigidPose::rotation(-angles.starboard_rad, scene.hull->hinge_m);
+    result[port] = hull->pose(barge::HullHalf::port, angles);
+    result[port + 1] = hull->pose(barge::HullHalf::starboard, angles);
   }
   return result;
 }
@@ -162,15 +173,11 @@ bool Simulation::State::output_reached()
   return true;
 }
 
-/// Whether everything has been slow for long enough, with a hull that stands still.
-bool Simulation::State::sleep()
+/// How long everything has been slow in a hull that stands still, s.
+double Simulation::State::still_for_s() const
 {
-  if (model.rms_velocity() > scene.numerics.rest_velocity_m_per_s || progress.steps == 0)
-    progress.still_since_s = progress.time_s;
-  if (!scene.numerics.skip_resting || progress.time_s - progress.still_since_s < scene.numerics.rest_time_s)
-    return false;
   const bool hull_still = !scene.hull || opening.next_motion_s(progress.time_s) > progress.time_s;
-  return hull_still;
+  return hull_still ? progress.time_s - progress.still_since_s : 0.0;
 }
 
 /// Jumps over rest. False while the opening is not known ahead.
@@ -193,7 +200,7 @@ bool Simulation::State::rest_on(Advance& result)
     return false;
   progress.time_s = to;
   progress.resting_time_s += to - from;
-  watch.observe(model, progress.time_s, angles_at(to), true, progress.still_since_s);
+  watch.observe(model, progress.time_s, angles_at(to), still_for_s());
   result = output_reached() ? Advance::frame_due : Advance::stepped;
   return true;
 }
@@ -210,7 +217,8 @@ bool Simulation::State::step_once(Advance& result)
   const double after = progress.time_s + dt;
   if (scene.hull && after > opening.known_until_s())
     return false;
-  const StepStatus status = model.step(dt, poses(angles_at(progress.time_s)), poses(angles_at(after)), scene.numerics.damping_per_s);
+  const StepStatus status =
+      model.step(dt, poses(angles_at(progress.time_s)), poses(angles_at(after)), scene.numerics.damping_per_s);
   progress.time_s = after;
   progress.dt_s = dt;
   progress.min_dt_s = progress.steps == 0 ? dt : std::min(progress.min_dt_s, dt);
@@ -225,11 +233,13 @@ bool Simulation::State::step_once(Advance& result)
   }
   for (std::size_t b = 0; b < progress.interval_impulse.size(); ++b)
     progress.interval_impulse[b] += model.boundary_impulses()[b].impulse;
-  if (sleep()) {
+  if (model.rms_velocity() > scene.numerics.rest_velocity_m_per_s)
+    progress.still_since_s = after;
+  if (scene.numerics.skip_resting && still_for_s() >= scene.numerics.rest_time_s) {
     model.stop_motion();
     progress.resting = true;
   }
-  watch.observe(model, progress.time_s, angles_at(progress.time_s), progress.resting, progress.still_since_s);
+  watch.observe(model, progress.time_s, angles_at(progress.time_s), still_for_s());
   result = output_reached() ? Advance::frame_due : Advance::stepped;
   return true;
 }
@@ -297,7 +307,7 @@ void Simulation::reset()
   s.progress = State::Progress{};
   s.progress.interval_impulse.assign(s.model.boundaries().size(), Vec2::Zero());
   s.progress.mean_force = s.progress.interval_impulse;
-  s.watch.observe(s.model, 0.0, {}, false, 0.0);
+  s.watch.observe(s.model, 0.0, {}, 0.0);
 }
 
 const SceneDescription& Simulation::scene() const

@@ -69,10 +69,10 @@ TYPED_TEST(Transfer, ConservesMassAndLinearAndAngularMomentumToTheGrid)
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
     Particles<Dim> particles = random_cloud(chance, count, grid);
     scatter_body<Dim>(particles, Vec<Dim>::Zero(), grid);
-    check_equal(of_particles(particles, particles.position, grid.dx()), of_grid(grid, false));
+    check_equal(of_particles<Dim>(particles, particles.position, grid.dx()), of_grid(grid, false));
     open(everything(grid), grid);
     sheet_to_grid<Dim>(particles, Vec<Dim>::Zero(), grid);
-    check_equal(of_particles(particles, particles.position, grid.dx()), of_grid(grid, false));
+    check_equal(of_particles<Dim>(particles, particles.position, grid.dx()), of_grid(grid, false));
   }));
 }
 
@@ -89,7 +89,7 @@ TYPED_TEST(Transfer, ConservesLinearAndAngularMomentumFromTheGrid)
     });
     const std::array<Column, Dim> before = particles.position;
     grid_to_particles(grid, 1e-3, true, particles, 0, particles.size());
-    check_equal(of_particles(particles, before, grid.dx()), of_grid(grid, true));
+    check_equal(of_particles<Dim>(particles, before, grid.dx()), of_grid(grid, true));
   }));
 }
 

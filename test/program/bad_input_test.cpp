@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
     Show, BadInputTest,
     testing::Values(BadInput{ "missing_file", { "--show", "FOLDER/a" }, { "--show", "FOLDER/a" }, "", "" },
                     BadInput{ "folder", { "--show", "FOLDER" }, { "--show", "FOLDER" }, "", "" },
-                    BadInput{ "no_summary", { "--show", "FOLDER/a" }, { "--show", "scene" }, "a", "{}" }),
+                    BadInput{ "no_summary", { "--show", "FOLDER/a" }, { "--show", "no summary" }, "a", "{}" }),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

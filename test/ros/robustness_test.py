@@ -23,12 +23,14 @@ def idle_share(node, seconds=3.0):
     return (node.cpu_s() - before) / (time.monotonic() - begin)
 
 
-class RobustnessTest(unittest.TestCase):
+class NodeTestCase(unittest.TestCase):
     def setUp(self):
         self.bag = rospy.get_param("~bag")
         self.parameters = {"scene": rospy.get_param("~scene"), "diagnostic_period": 0.1, "threads": 1,
                            "finish_when_source_leaves": True}
 
+
+class IdleTest(NodeTestCase):
     def test_idle_before_and_after(self):
         diagnostics = NodeDiagnostics()
         with start_node("idle_node", self.parameters) as node:
@@ -41,6 +43,8 @@ class RobustnessTest(unittest.TestCase):
             node.signal(INTERRUPT)
             self.assertEqual(node.end()[0], 0)
 
+
+class RecordTest(NodeTestCase):
     def record_after(self, number):
         """Frames that can be read after the node got this signal in the middle of a run, and its exit status."""
         diagnostics = NodeDiagnostics()
@@ -64,6 +68,8 @@ class RobustnessTest(unittest.TestCase):
     def test_terminated_node_leaves_its_record_and_ends_cleanly(self):
         self.assertEqual(self.record_after(TERMINATE), 0)
 
+
+class SamplesTest(NodeTestCase):
     def test_unbelievable_samples_are_rejected_and_counted(self):
         diagnostics = NodeDiagnostics()
         clock = rospy.Publisher("/clock", Clock, queue_size=10)
@@ -120,4 +126,5 @@ class RobustnessTest(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("robustness_test", disable_rostime=True)
-    rostest.rosrun("geocontainer_mpm", "robustness_test", RobustnessTest)
+    case = next(case for case in (IdleTest, RecordTest, SamplesTest) if case.__name__ == rospy.get_param("~case"))
+    rostest.rosrun("geocontainer_mpm", case.__name__, case)

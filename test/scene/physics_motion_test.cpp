@@ -45,9 +45,10 @@ TEST(FreeFall, FollowsTheParabolaToRoundOff)
 /// Distance that the block of config/scenes/block_on_incline.yaml moves down its plane.
 double slide(double friction, double until_s)
 {
-  Simulation simulation(load_scene(scene_path("block_on_incline"), { fmt::format("surfaces.plane.friction={}", friction),
-                                                                     fmt::format("time.end_s={}", until_s) }),
-                        1);
+  Simulation simulation(
+      load_scene(scene_path("block_on_incline"),
+                 { fmt::format("surfaces.plane.friction={}", friction), fmt::format("time.end_s={}", until_s) }),
+      1);
   const Vec2 start = simulation.status().centroid_m;
   EXPECT_EQ(run(simulation), Advance::finished) << simulation.failure().reason;
   const Vec2 moved = simulation.status().centroid_m - start;
@@ -73,16 +74,18 @@ TEST(BlockOnIncline, SticksWithoutCreep)
   }
 }
 
-/// Opening angle, deg, at which a block on each hull wall starts to slide while the hull opens at 1 deg/s. The walls stand
-/// at `wall_deg` when closed. The blocks do not touch each other: two walls that converge would hold any one block.
+/// Opening angle, deg, at which a block on each hull wall starts to slide while the hull opens at 1 deg/s. The walls
+/// stand at `wall_deg` when closed. The blocks do not touch each other: two walls that converge would hold any one
+/// block.
 double sliding_angle(double wall_deg, double friction)
 {
   const double rise = std::tan(wall_deg * degrees);
   const double y = 1.6, z = -3.0 + rise * y;
   const auto block = [&](double side) {
-    return fmt::format("{{ material: block, initial_stress: gravity, shape: {{ box: {{ lower_m: [{}, {}], upper_m: [{}, {}], "
-                       "rotation_deg: {}, pivot_m: [{}, {}] }} }} }}",
-                       side * y - 0.5, z, side * y + 0.5, z + 0.3, side * wall_deg, side * y, z);
+    return fmt::format(
+        "{{ material: block, initial_stress: gravity, shape: {{ box: {{ lower_m: [{}, {}], upper_m: [{}, {}], "
+        "rotation_deg: {}, pivot_m: [{}, {}] }} }} }}",
+        side * y - 0.5, z, side * y + 0.5, z + 0.3, side * wall_deg, side * y, z);
   };
   const std::string yaml = fmt::format(R"(
 name: two_walls
@@ -115,7 +118,8 @@ hull:
   run(simulation, [&](const Simulation& s) {
     const Frame frame = s.frame();
     // The port block as the wall sees it.
-    const Vec2 seen = contact::RigidPose::rotation(frame.opening.port_rad, Vec2::Zero()).invert(centroid(frame.soil[0]));
+    const Vec2 seen =
+        contact::RigidPose::rotation(frame.opening.port_rad, Vec2::Zero()).invert(centroid(frame.soil[0]));
     if (frame.time_s == 0.0)
       start = seen;
     if (angle < 0.0 && (seen - start).norm() > 1e-3)

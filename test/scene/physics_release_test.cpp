@@ -81,9 +81,9 @@ TEST(Hopper, CarriesTheWeightOfTheRestingContainer)
 TEST(DefaultRelease, IsReleasedWithBalancesClosedAndNothingLeaks)
 {
   const SceneDescription scene = load_scene(scene_path("release"));
-  const barge::SplitHull hull(scene.hull->hinge_m,
-                              barge::round_corners(scene.hull->port_section_m, scene.hull->lip_radius_m, 0.3, "section"),
-                              "hull");
+  const barge::SplitHull hull(
+      scene.hull->hinge_m, barge::round_corners(scene.hull->port_section_m, scene.hull->lip_radius_m, 0.3, "section"),
+      "hull");
   const double quarter_cell = 0.25 * scene.grid.cell_size_m;
   const double bed = scene.surfaces.at("bed").line_m.front()[1];
   Simulation simulation(scene, 2);
@@ -122,9 +122,9 @@ TEST(DefaultRelease, IsReleasedWithBalancesClosedAndNothingLeaks)
 
 TEST(StuckRelease, IsReportedHungUp)
 {
-  Simulation simulation(load_scene(scene_path("release_stuck"),
-                                   { "grid.cell_size_m=0.2", "geotextiles.container.segment_length_m=0.2" }),
-                        2);
+  Simulation simulation(
+      load_scene(scene_path("release_stuck"), { "grid.cell_size_m=0.2", "geotextiles.container.segment_length_m=0.2" }),
+      2);
   EXPECT_EQ(run(simulation), Advance::finished) << simulation.failure().reason;
   EXPECT_EQ(simulation.status().outcome, Outcome::hung_up);
   EXPECT_LT(simulation.status().release_time_s, 0.0);
@@ -132,9 +132,8 @@ TEST(StuckRelease, IsReportedHungUp)
 
 TEST(Simulation, RepeatsBitForBitAfterResetAndOnAnyNumberOfThreads)
 {
-  const SceneDescription scene =
-      load_scene(scene_path("release"), { "grid.cell_size_m=0.2", "geotextiles.container.segment_length_m=0.2",
-                                          "time.end_s=14" });
+  const SceneDescription scene = load_scene(
+      scene_path("release"), { "grid.cell_size_m=0.2", "geotextiles.container.segment_length_m=0.2", "time.end_s=14" });
   Simulation one(scene, 1), two(scene, 2), three(scene, 3);
   EXPECT_EQ(one.digest(), two.digest()) << "after settling";
   run(one);
@@ -158,7 +157,8 @@ TEST(Simulation, SkippingRestChangesNothingThatMatters)
                                             "time.end_s=25" };
   std::vector<std::string> stepped = coarse;
   stepped.emplace_back("numerics.skip_resting=false");
-  Simulation skipping(load_scene(scene_path("release"), coarse), 2), stepping(load_scene(scene_path("release"), stepped), 2);
+  Simulation skipping(load_scene(scene_path("release"), coarse), 2),
+      stepping(load_scene(scene_path("release"), stepped), 2);
   run(skipping);
   run(stepping);
   EXPECT_GT(skipping.counters().skipped.resting_time_s, 3.0);

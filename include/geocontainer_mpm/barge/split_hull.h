@@ -8,30 +8,12 @@
 #include <vector>
 
 #include "geocontainer_mpm/barge/opening_signal.h"
+#include "geocontainer_mpm/contact/surface.h"
 #include "geocontainer_mpm/mpm/types.h"
 
 namespace geocontainer_mpm::barge {
 
 enum class HullHalf { port, starboard };
-
-/// A rotation about x through `pivot_m`. Stores no history: any chain of angles ends in the exact rotation of the last.
-struct RigidPose {
-  Vec2 pivot_m = Vec2::Zero();
-  double angle_rad = 0.0;  ///< about +x
-  Mat2 rotation = Mat2::Identity();
-
-  static RigidPose about(const Vec2& pivot_m, double angle_rad);
-
-  Vec2 position(const Vec2& closed_m) const { return pivot_m + rotation * (closed_m - pivot_m); }
-  Vec2 closed_position(const Vec2& turned_m) const { return pivot_m + rotation.transpose() * (turned_m - pivot_m); }
-  Vec2 direction(const Vec2& closed) const { return rotation * closed; }  ///< for normals and tangents
-  /// Velocity of the material point that is now at `turned_m`, m/s, for a rate of `angle_rad` in rad/s.
-  Vec2 velocity(const Vec2& turned_m, double angle_rate_rad_per_s) const
-  {
-    const Vec2 arm = turned_m - pivot_m;
-    return angle_rate_rad_per_s * Vec2(-arm[1], arm[0]);
-  }
-};
 
 class SplitHull {
 public:
@@ -45,10 +27,8 @@ public:
   /// too.
   const std::vector<Vec2>& closed_section_m(HullHalf half) const;
   /// Pose of a half at an opening angle (>= 0: open).
-  RigidPose pose(HullHalf half, double opening_rad) const;
-  RigidPose pose(HullHalf half, const OpeningAngles& opening) const;
-  /// Rate of RigidPose::angle_rad, rad/s, from the rates of the opening angles.
-  static double pose_rate(HullHalf half, const OpeningAngles& opening_rates);
+  contact::RigidPose pose(HullHalf half, double opening_rad) const;
+  contact::RigidPose pose(HullHalf half, const OpeningAngles& opening) const;
   std::vector<Vec2> section_m(HullHalf half, const OpeningAngles& opening) const;
 
   /// Width of the narrowest passage between the halves: horizontal distance between the vertical tangents to the port

@@ -1,6 +1,7 @@
 #pragma once
 /// Boundary particles: a rigid body that is only its surface, moved by prescription (Hamad, Stolle and Moormann 2016,
-/// section 2: the non-zero kinematic condition). They have no mass; they carry position, velocity and normal to the grid.
+/// section 2: the non-zero kinematic condition). They have no mass; they carry position, velocity and normal to the
+/// grid.
 
 #include <string>
 #include <vector>
@@ -37,7 +38,8 @@ public:
   bool may_touch(const Vec2& point, double reach) const
   {
     const Vec2 x = start_.invert(point);
-    return (x.array() >= reference_lower_.array() - reach).all() && (x.array() <= reference_upper_.array() + reach).all();
+    return (x.array() >= reference_lower_.array() - reach).all() &&
+           (x.array() <= reference_upper_.array() + reach).all();
   }
   /// Signed distance of a point to the surface at the start of the step, and the normal there.
   Nearest nearest(const Vec2& point) const;

@@ -2,11 +2,12 @@
 /// Unilateral Coulomb contact of the material with boundary bodies.
 ///
 /// Boundary particles carry the prescribed motion (Hamad, Stolle and Moormann 2016, section 2). Where a point of the
-/// material's surface closes the gap to the surface that they span, the grid's velocity field must not carry it through:
-/// (v(x_c) - v_b) . n >= -gap / dt, with friction up to mu times the normal impulse. The conditions of all touching
-/// points act on the same nodal velocities and are solved together by projected Gauss-Seidel on the impulses (Moreau
-/// 1988; Jean 1999, CMAME 177:235), each impulse spread by the point's own shape functions. The gap is the boundary's
-/// own, so nothing acts across the reach of a shape function, and the normal is exact (cf. Nairn, Bardenhagen and Smith 2018).
+/// material's surface closes the gap to the surface that they span, the grid's velocity field must not carry it
+/// through: (v(x_c) - v_b) . n >= -gap / dt, with friction up to mu times the normal impulse. The conditions of all
+/// touching points act on the same nodal velocities and are solved together by projected Gauss-Seidel on the impulses
+/// (Moreau 1988; Jean 1999, CMAME 177:235), each impulse spread by the point's own shape functions. The gap is the
+/// boundary's own, so nothing acts across the reach of a shape function, and the normal is exact (cf. Nairn,
+/// Bardenhagen and Smith 2018).
 
 #include <array>
 #include <cstdint>
@@ -53,17 +54,17 @@ private:
   struct Contact {
     std::array<std::uint32_t, 9> node;
     std::array<double, 9> weight;
-    Vec2 normal, velocity;    ///< of the boundary at the point
+    Vec2 normal, velocity;  ///< of the boundary at the point
     double friction;
     double approach;          ///< least allowed relative normal velocity, m/s
     double compliance;        ///< velocity at the point per unit impulse on it, 1/kg
     double pressed, dragged;  ///< impulses so far: normal and tangential, N s / m
     std::uint32_t body;
-    std::size_t memory;       ///< where this pair's impulses are remembered
+    std::size_t memory;  ///< where this pair's impulses are remembered
   };
 
-  void collect(std::uint32_t index, const BoundaryBody& body, const ContactPoints& points, std::size_t memory, double dt,
-               const mpm::Grid<2>& grid);
+  void collect(std::uint32_t index, const BoundaryBody& body, const ContactPoints& points, std::size_t memory,
+               double dt, const mpm::Grid<2>& grid);
   void add_contact(const Vec2& point, const Nearest& surface, double gap, double dt, const mpm::Grid<2>& grid,
                    Contact& contact) const;
   double relax(Contact& contact, mpm::Grid<2>& grid) const;
@@ -71,10 +72,10 @@ private:
 
   bool held_ = false;
   std::vector<Contact> contacts_;
-  std::vector<std::array<double, 2>> memory_;       ///< impulses of the last step per body and point: a good first guess
+  std::vector<std::array<double, 2>> memory_;  ///< impulses of the last step per body and point: a good first guess
   std::vector<std::array<double, 2>> next_memory_;
-  std::vector<std::uint32_t> touched_;              ///< grid nodes of all contacts, each once
-  std::vector<Vec2> untouched_velocity_;            ///< theirs before contact
+  std::vector<std::uint32_t> touched_;    ///< grid nodes of all contacts, each once
+  std::vector<Vec2> untouched_velocity_;  ///< theirs before contact
 };
 
 }  // namespace geocontainer_mpm::contact

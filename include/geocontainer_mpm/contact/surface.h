@@ -34,7 +34,8 @@ inline Vec2 left_normal(const Vec2& tangent)
   return { -tangent[1], tangent[0] };
 }
 
-/// Rotation about an axis normal to the plane: x = pivot + R(angle) (X - pivot), angle positive from y towards z.
+/// Rotation about x through `pivot`: x = pivot + R(angle) (X - pivot), angle positive from y towards z. Stores no
+/// history: any chain of angles ends in the exact rotation of the last.
 struct RigidPose {
   double cosine = 1.0, sine = 0.0;
   Vec2 pivot = Vec2::Zero();

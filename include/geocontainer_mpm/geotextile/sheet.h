@@ -1,6 +1,6 @@
 #pragma once
-/// The geotextile as a FEM surface coupled to the grid (Hamad, Moormann, Vermeer 2012; Hamad et al. 2014): nodes are material points
-/// that move with the grid's velocity, two-node segments between them carry tension only.
+/// The geotextile as a FEM surface coupled to the grid (Hamad, Moormann, Vermeer 2012; Hamad et al. 2014): nodes are
+/// material points that move with the grid's velocity, two-node segments between them carry tension only.
 
 #include <cstddef>
 #include <vector>
@@ -38,9 +38,9 @@ public:
   const std::vector<double>& tension() const { return tension_; }  ///< per segment, N/m
   /// Mean tension over the gauge length around each segment's middle, N/m.
   void gauge_tension(std::vector<double>& result) const;
-  double elastic_energy() const;    ///< J/m
-  double largest_strain() const;    ///< >= 0
-  double enclosed_area() const;     ///< m^2
+  double elastic_energy() const;  ///< J/m
+  double largest_strain() const;  ///< >= 0
+  double enclosed_area() const;   ///< m^2
 
   /// Bound on the square of the largest frequency that the sheet adds to the grid whose nodal masses stand in `grid`,
   /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there.

@@ -11,20 +11,20 @@ namespace geocontainer_mpm::mpm {
 /// Sums over the nodes of the window, in an order that does not depend on the number of threads.
 template <int Dim>
 struct MotionSums {
-  double kinetic_before = 0.0;  ///< of the transferred momentum, J (J/m in plane strain)
-  double kinetic_after = 0.0;   ///< after the forces, before contact, J
-  double damped = 0.0;          ///< taken by mass-proportional damping, J
+  double kinetic_before = 0.0;                  ///< of the transferred momentum, J (J/m in plane strain)
+  double kinetic_after = 0.0;                   ///< after the forces, before contact, J
+  double damped = 0.0;                          ///< taken by mass-proportional damping, J
   Vec<Dim> momentum_before = Vec<Dim>::Zero();  ///< kg m/s
   Vec<Dim> momentum_after = Vec<Dim>::Zero();
-  bool touches_faces = false;   ///< a face condition acted: momentum is not conserved in this step
+  bool touches_faces = false;  ///< a face condition acted: momentum is not conserved in this step
 };
 
 template <int Dim>
 class GridUpdate {
 public:
-  /// Mirrors what was scattered beyond roller and fixed faces back inside, so that the face is a plane of (anti)symmetry,
-  /// then v = (p + kick * f) / m * max(0, 1 - damping * kick) at every node of the window.
-  /// `kick`: time between the mid-steps, s (leapfrog: half of the last step plus half of this one).
+  /// Mirrors what was scattered beyond roller and fixed faces back inside, so that the face is a plane of
+  /// (anti)symmetry, then v = (p + kick * f) / m * max(0, 1 - damping * kick) at every node of the window. `kick`: time
+  /// between the mid-steps, s (leapfrog: half of the last step plus half of this one).
   MotionSums<Dim> apply_forces(Grid<Dim>& grid, double kick, double damping_per_s, ThreadTeam& team);
 
   /// Sets the velocities on and beyond roller and fixed faces. Returns the kinetic energy taken, J.

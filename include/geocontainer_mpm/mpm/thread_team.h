@@ -11,8 +11,8 @@
 namespace geocontainer_mpm::mpm {
 
 /// The calling thread and `threads - 1` helpers. Which thread does which piece is left to chance; results must not
-/// depend on it. Helpers spin for some microseconds, then sleep: on a busy machine, or between frames, they cost nothing.
-/// One caller at a time.
+/// depend on it. Helpers spin for some microseconds, then sleep: on a busy machine, or between frames, they cost
+/// nothing. One caller at a time.
 class ThreadTeam {
 public:
   /// At least 1 thread.
@@ -33,7 +33,8 @@ public:
       return;
     }
     using Plain = std::remove_reference_t<Work>;
-    run(count, [](void* context, int i) { (*static_cast<Plain*>(context))(i); },
+    run(
+        count, [](void* context, int i) { (*static_cast<Plain*>(context))(i); },
         const_cast<void*>(static_cast<const void*>(&work)));
   }
 
@@ -48,8 +49,8 @@ private:
   Piece piece_ = nullptr;
   void* context_ = nullptr;
   int count_ = 0;
-  std::atomic<int> next_{ 0 };            ///< piece to take
-  std::atomic<int> busy_{ 0 };            ///< helpers that have not finished the present work
+  std::atomic<int> next_{ 0 };             ///< piece to take
+  std::atomic<int> busy_{ 0 };             ///< helpers that have not finished the present work
   std::atomic<unsigned> generation_{ 0 };  ///< counts calls of run(); helpers wait for it to change
   std::atomic<bool> stop_{ false };
   std::mutex mutex_;

@@ -12,35 +12,36 @@
 
 #include "geocontainer_mpm/barge/opening_signal.h"
 #include "geocontainer_mpm/material/parameters.h"
+#include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/types.h"
 
 namespace geocontainer_mpm::scene {
 
 struct TimeDescription {
-  double end_s = 0.0;               ///< simulated time at which the run is complete, s, > 0
-  double output_interval_s = 0.1;   ///< spacing of frames (record, topics), s, > 0
+  double end_s = 0.0;              ///< simulated time at which the run is complete, s, > 0
+  double output_interval_s = 0.1;  ///< spacing of frames (record, topics), s, > 0
 };
 
 /// What a face of the grid does to material that reaches it.
-enum class FaceCondition { free, roller, fixed };
+using mpm::FaceCondition;
 
 struct GridDescription {
-  double cell_size_m = 0.1;                  ///< dx, m, > 0
-  Vec2 lower_m = Vec2::Zero();               ///< lower corner of the space that material may occupy, m
-  Vec2 upper_m = Vec2::Zero();               ///< upper corner, m; extent is a whole number of cells (1e-6)
+  double cell_size_m = 0.1;     ///< dx, m, > 0
+  Vec2 lower_m = Vec2::Zero();  ///< lower corner of the space that material may occupy, m
+  Vec2 upper_m = Vec2::Zero();  ///< upper corner, m; extent is a whole number of cells (1e-6)
   /// Order y_min, y_max, z_min, z_max. Free: material that leaves ends the run with a reason. Roller: no motion
   /// through the face, none hindered along it. Fixed: no motion at all.
   std::array<FaceCondition, 4> faces{};
 };
 
 struct NumericsDescription {
-  double time_step_factor = 0.8;      ///< fraction of the stability bound that a step may use, (0, 1]
-  double max_step_s = 0.01;           ///< upper bound of a step, s, > 0
-  double max_travel_cells = 0.25;     ///< furthest a particle may move in a step, cells, (0, 0.5]
-  double damping_per_s = 0.0;         ///< mass-proportional damping of the live run, 1/s, >= 0; 0 for physics
-  bool skip_resting = true;           ///< no steps while nothing moves
+  double time_step_factor = 0.8;        ///< fraction of the stability bound that a step may use, (0, 1]
+  double max_step_s = 0.01;             ///< upper bound of a step, s, > 0
+  double max_travel_cells = 0.25;       ///< furthest a particle may move in a step, cells, (0, 0.5]
+  double damping_per_s = 0.0;           ///< mass-proportional damping of the live run, 1/s, >= 0; 0 for physics
+  bool skip_resting = true;             ///< no steps while nothing moves
   double rest_velocity_m_per_s = 2e-3;  ///< root-mean-square velocity below which a body counts as resting, m/s, > 0
-  double rest_time_s = 0.5;           ///< how long it must stay below, s, > 0
+  double rest_time_s = 0.5;             ///< how long it must stay below, s, > 0
 };
 
 struct Box {
@@ -74,19 +75,19 @@ enum class InitialStress {
 };
 
 struct BodyDescription {
-  std::string material;                       ///< a key of `materials`
+  std::string material;  ///< a key of `materials`
   ShapeDescription shape;
-  int particles_per_cell = 2;                 ///< in each direction, 1 to 4
+  int particles_per_cell = 2;  ///< in each direction, 1 to 4
   Vec2 initial_velocity_m_per_s = Vec2::Zero();
   InitialStress initial_stress = InitialStress::none;
-  double k0 = 0.5;                            ///< horizontal over vertical stress for k0 and gravity, [0, 2]
+  double k0 = 0.5;  ///< horizontal over vertical stress for k0 and gravity, [0, 2]
 };
 
 struct GeotextileDescription {
-  std::string encloses;                       ///< the body around whose outline the closed sheet is laid
-  double circumference_m = 0.0;               ///< unstretched length around; the excess over the outline is slack laid in evenly
-  double stiffness_n_per_m = 0.0;             ///< J (warp), force per width and strain, > 0
-  double mass_kg_per_m2 = 0.0;                ///< true mass: what gravity pulls, > 0
+  std::string encloses;            ///< the body around whose outline the closed sheet is laid
+  double circumference_m = 0.0;    ///< unstretched length around; the excess over the outline is slack laid in evenly
+  double stiffness_n_per_m = 0.0;  ///< J (warp), force per width and strain, > 0
+  double mass_kg_per_m2 = 0.0;     ///< true mass: what gravity pulls, > 0
   double computational_mass_kg_per_m2 = 0.0;  ///< inertia used (mass scaling), >= true mass
   double strength_n_per_m = 0.0;              ///< tensile strength of the sheet (warp), > 0
   double seam_efficiency = 0.85;              ///< strength of a seam over the sheet's, (0, 1]
@@ -102,7 +103,7 @@ struct OpeningRow {
 };
 
 struct HullDescription {
-  Vec2 hinge_m = Vec2::Zero();            ///< hinge axis, m
+  Vec2 hinge_m = Vec2::Zero();  ///< hinge axis, m
   /// Closed section of the port half, y >= 0: from the bottom inwards, round the lip and up the inner wall to the deck,
   /// so that the free side is on the left walking along it. Starboard is its mirror image.
   std::vector<Vec2> port_section_m;
@@ -132,10 +133,10 @@ struct SceneDescription {
   GridDescription grid;
   NumericsDescription numerics;
   std::map<std::string, material::Parameters> materials;
-  std::map<std::string, BodyDescription> bodies;           ///< at least one
+  std::map<std::string, BodyDescription> bodies;             ///< at least one
   std::map<std::string, GeotextileDescription> geotextiles;  ///< each around its own body
   std::optional<HullDescription> hull;
-  std::map<std::string, SurfaceDescription> surfaces;      ///< the bed and other fixed surfaces
+  std::map<std::string, SurfaceDescription> surfaces;  ///< the bed and other fixed surfaces
   OutcomeDescription outcome;
 
   /// Throws InputError naming `source`, the dotted key, its value and what is allowed.

@@ -33,20 +33,20 @@ struct SoilFrame {
 /// One closed sheet: node i and node (i + 1) % n bound segment i.
 struct GeotextileFrame {
   std::string name;
-  std::vector<Vec2> node;            ///< m, in order along the sheet
-  std::vector<Vec2> velocity;        ///< m/s
-  std::vector<double> tension;       ///< per segment, raw, N/m, >= 0
-  std::vector<double> gauge_tension; ///< per segment, mean over the gauge length, N/m: what is reported and judged
+  std::vector<Vec2> node;             ///< m, in order along the sheet
+  std::vector<Vec2> velocity;         ///< m/s
+  std::vector<double> tension;        ///< per segment, raw, N/m, >= 0
+  std::vector<double> gauge_tension;  ///< per segment, mean over the gauge length, N/m: what is reported and judged
   double gauge_length_m = 0.0;
-  double strength_n_per_m = 0.0;     ///< of the sheet
+  double strength_n_per_m = 0.0;  ///< of the sheet
   double seam_strength_n_per_m = 0.0;
 };
 
 /// One rigid half or surface of boundary particles.
 struct BoundaryFrame {
-  std::string name;               ///< `hull_port`, `hull_starboard`, or the surface's key
-  std::vector<Vec2> position;     ///< boundary particles, in order along the section, m
-  double angle_rad = 0.0;         ///< rotation about the hinge, opening positive
+  std::string name;                   ///< `hull_port`, `hull_starboard`, or the surface's key
+  std::vector<Vec2> position;         ///< boundary particles, in order along the section, m
+  double angle_rad = 0.0;             ///< rotation about the hinge, opening positive
   Vec2 force_n_per_m = Vec2::Zero();  ///< what the bodies press on it, mean over the output interval, N/m
 };
 
@@ -54,33 +54,33 @@ struct BoundaryFrame {
 struct EnergyFrame {
   double kinetic = 0.0;
   double elastic = 0.0;
-  double potential = 0.0;         ///< gravity, zero at z = 0
-  double dissipated = 0.0;        ///< plastic + friction and impact + transfer + damping, since the start
+  double potential = 0.0;   ///< gravity, zero at z = 0
+  double dissipated = 0.0;  ///< plastic + friction and impact + transfer + damping, since the start
   double dissipated_plastic = 0.0;
   double dissipated_contact = 0.0;
-  double dissipated_transfer = 0.0;  ///< lost by the particle-grid transfer: numerical
-  double work_in = 0.0;           ///< done on the material by moving boundaries, since the start
+  double dissipated_transfer = 0.0;     ///< lost by the particle-grid transfer: numerical
+  double work_in = 0.0;                 ///< done on the material by moving boundaries, since the start
   double relative_balance_error = 0.0;  ///< |change + dissipated - work in| over all energy that changed hands
 };
 
 struct StatusFrame {
   Outcome outcome = Outcome::waiting;
-  double release_time_s = -1.0;      ///< < 0 while not released
-  bool resting = false;              ///< nothing moves: no steps are taken
-  double peak_tension_n_per_m = 0.0;   ///< largest gauge tension so far
+  double release_time_s = -1.0;       ///< < 0 while not released
+  bool resting = false;               ///< nothing moves: no steps are taken
+  double peak_tension_n_per_m = 0.0;  ///< largest gauge tension so far
   double peak_tension_time_s = 0.0;
   Vec2 peak_tension_position_m = Vec2::Zero();
   double current_tension_n_per_m = 0.0;  ///< largest gauge tension now
-  double elongation_max = 0.0;       ///< largest strain of the sheet so far
-  Vec2 centroid_m = Vec2::Zero();    ///< of the soil, by mass
+  double elongation_max = 0.0;           ///< largest strain of the sheet so far
+  Vec2 centroid_m = Vec2::Zero();        ///< of the soil, by mass
   double width_m = 0.0, height_m = 0.0;  ///< extent of the container now
-  double soil_volume_m2 = 0.0;       ///< per unit width, now
+  double soil_volume_m2 = 0.0;           ///< per unit width, now
   double soil_volume_initial_m2 = 0.0;
 };
 
 struct Frame {
-  double time_s = 0.0;               ///< simulation time
-  std::int64_t stamp_ns = 0;         ///< the same in the log's epoch
+  double time_s = 0.0;        ///< simulation time
+  std::int64_t stamp_ns = 0;  ///< the same in the log's epoch
   std::uint64_t step = 0;
   double dt_s = 0.0;
   barge::OpeningAngles opening;

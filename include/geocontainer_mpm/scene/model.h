@@ -68,9 +68,9 @@ public:
   /// Index of the first hull half in boundaries() (port, then starboard), or -1.
   int hull_index() const { return hull_index_; }
 
-  double rms_velocity() const;  ///< by mass, of the last step, m/s
-  Vec2 centroid() const;        ///< of the bodies, by mass, m
-  double soil_mass() const;     ///< kg/m
+  double rms_velocity() const;           ///< by mass, of the last step, m/s
+  Vec2 centroid() const;                 ///< of the bodies, by mass, m
+  double soil_mass() const;              ///< kg/m
   double fundamental_frequency() const;  ///< rough lowest frequency of the bodies, rad/s: for settling
   EnergyFrame energy() const;
   double momentum_error() const;
@@ -106,15 +106,15 @@ private:
 
   // From the last survey of the particles.
   Vec2 extent_lower_ = Vec2::Zero(), extent_upper_ = Vec2::Zero();
-  double fastest_ = 0.0;   ///< m/s
+  double fastest_ = 0.0;  ///< m/s
   StepStatus health_;
 
   double travel_since_sort_ = 0.0;  ///< m
   bool sorted_ = false, on_grid_ = false;
   double stable_dt_ = 0.0, last_dt_ = 0.0;
-  double kinetic_ = 0.0;            ///< on the grid after the last step, J/m
+  double kinetic_ = 0.0;  ///< on the grid after the last step, J/m
   bool kinetic_known_ = false;
-  double inertia_ = 0.0;            ///< all mass, kg/m
+  double inertia_ = 0.0;  ///< all mass, kg/m
   Ledger ledger_;
   SkippedCounts skipped_;
   StageTimes stages_;

@@ -13,13 +13,13 @@ class ReleaseWatch {
 public:
   explicit ReleaseWatch(const SceneDescription& scene);
 
-  /// Looks at the model after a step, or while it rests (`resting`; everything has been slow since `still_since_s`).
-  void observe(const Model& model, double time_s, const barge::OpeningAngles& opening, bool resting, double still_since_s);
+  /// Looks at the model after a step, or while it rests; everything, hull included, has been still for `still_for_s`.
+  void observe(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s);
 
   StatusFrame status(const Model& model) const;
 
 private:
-  void judge(const Model& model, double time_s, const barge::OpeningAngles& opening, bool resting, double still_since_s);
+  void judge(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s);
 
   std::optional<barge::SplitHull> hull_;
   double hung_up_after_s_;
@@ -32,6 +32,7 @@ private:
 };
 
 /// Fills the bodies, sheets and boundaries (in their reference pose) of a frame.
-void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force, Frame& frame);
+void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force,
+                Frame& frame);
 
 }  // namespace geocontainer_mpm::scene

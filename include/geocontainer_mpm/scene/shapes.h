@@ -13,8 +13,9 @@ struct Sampling {
   double volume = 0.0;       ///< of each, per unit width, m^2: points x volume is the area of the shape
 };
 
-/// Closed outline, counter-clockwise (y to the right, z up), m. A disc becomes a polygon with sides of about `resolution` m.
-/// `hull` is needed by hopper_fill alone. Throws InputError when the hopper cannot hold the wanted area.
+/// Closed outline, counter-clockwise (y to the right, z up), m. A disc becomes a polygon with sides of about
+/// `resolution` m. `hull` is needed by hopper_fill alone. Throws InputError when the hopper cannot hold the wanted
+/// area.
 std::vector<Vec2> outline(const ShapeDescription& shape, const std::optional<HullDescription>& hull, double resolution);
 
 /// Signed area of a closed polygon, counter-clockwise positive, m^2.

@@ -14,19 +14,19 @@ namespace geocontainer_mpm::scene {
 
 /// What one call of advance() did.
 enum class Advance {
-  stepped,      ///< one or more steps or a jump over rest; call again
-  frame_due,    ///< the same, and an output instant was reached: frame() is the one to keep
-  waiting,      ///< the opening is not known far enough ahead yet: add samples, or tell the clock
-  finished,     ///< end_s is reached, or everything rests for good after the last sample
-  stopped       ///< the solver had to stop; see failure()
+  stepped,    ///< one or more steps or a jump over rest; call again
+  frame_due,  ///< the same, and an output instant was reached: frame() is the one to keep
+  waiting,    ///< the opening is not known far enough ahead yet: add samples, or tell the clock
+  finished,   ///< end_s is reached, or everything rests for good after the last sample
+  stopped     ///< the solver had to stop; see failure()
 };
 
 /// What was not computed because the scene did not need it.
 struct SkippedCounts {
-  double resting_time_s = 0.0;          ///< simulated time jumped over at rest
-  std::uint64_t contact_searches = 0;   ///< steps x boundaries in which no contact was looked for: bodies apart
-  std::uint64_t grid_nodes = 0;         ///< nodes outside the active window, summed over steps
-  std::uint64_t membrane_passes = 0;    ///< steps in which no segment was taut
+  double resting_time_s = 0.0;         ///< simulated time jumped over at rest
+  std::uint64_t contact_searches = 0;  ///< steps x boundaries in which no contact was looked for: bodies apart
+  std::uint64_t grid_nodes = 0;        ///< nodes outside the active window, summed over steps
+  std::uint64_t membrane_passes = 0;   ///< steps in which no segment was taut
 };
 
 /// Wall-clock seconds by stage, summed over steps.
@@ -46,7 +46,7 @@ struct RunCounters {
 
 /// Why a run had to stop: what, where, when.
 struct Failure {
-  std::string reason;      ///< one sentence: cause, body, particle
+  std::string reason;  ///< one sentence: cause, body, particle
   Vec2 position_m = Vec2::Zero();
   double time_s = 0.0;
 };
@@ -76,12 +76,13 @@ public:
 
   const SceneDescription& scene() const;
   double time_s() const;
-  Frame frame() const;           ///< snapshot of the present state
-  StatusFrame status() const;    ///< the cheap part of frame()
+  Frame frame() const;         ///< snapshot of the present state
+  StatusFrame status() const;  ///< the cheap part of frame()
   EnergyFrame energy() const;
   RunCounters counters() const;
   const Failure& failure() const;  ///< meaningful after Advance::stopped
-  /// 64-bit digest of the whole mechanical state (positions, velocities, stresses, tensions, time): equal bits, equal digest.
+  /// 64-bit digest of the mechanical state (positions, velocities, stresses, tensions): equal bits, equal digest. Time
+  /// is left out, so that a state at rest has one digest.
   std::uint64_t digest() const;
 
 private:
