@@ -1,5 +1,8 @@
 #include "geocontainer_mpm/mpm/transfer.h"
 
+#include <array>
+#include <type_traits>
+
 #include "geocontainer_mpm/mpm/bspline.h"
 
 namespace geocontainer_mpm::mpm {
@@ -14,86 +17,141 @@ std::array<double, Dim> position_of(const Particles<Dim>& particles, std::size_t
   return x;
 }
 
-/// Column j of a symmetric stress, padded to the width of a grid force, times `factor`.
+// Grid nodes as the compiler's own vectors: built in registers from scalars, where a fixed-size array is written to
+// memory slot by slot and read back whole, which stalls every particle.
+using Quad [[gnu::vector_size(32)]] = double;
+using Pair [[gnu::vector_size(16)]] = double;
 template <int Dim>
-typename Grid<Dim>::Force stress_column(const Particles<Dim>& particles, std::size_t p, int j, double factor)
+struct ForceVectorOf {
+  using Type = Quad;
+};
+template <>
+struct ForceVectorOf<2> {
+  using Type = Pair;
+};
+template <int Dim>
+using ForceVector = typename ForceVectorOf<Dim>::Type;
+// The same where they overlie the grid's storage.
+using StoredQuad [[gnu::may_alias]] = Quad;
+using StoredPair [[gnu::may_alias]] = Pair;
+
+StoredQuad* stored(Eigen::Array<double, 4, 1>* node)
 {
-  using Force = typename Grid<Dim>::Force;
-  const auto s = [&](int k) { return factor * particles.stress[k][p]; };
-  if constexpr (Dim == 2)
-    return j == 0 ? Force{ s(0), s(2) } : Force{ s(2), s(1) };
-  else
-    return j == 0   ? Force{ s(0), s(3), s(4), 0.0 }
-           : j == 1 ? Force{ s(3), s(1), s(5), 0.0 }
-                    : Force{ s(4), s(5), s(2), 0.0 };
+  return reinterpret_cast<StoredQuad*>(node);
+}
+const StoredQuad* stored(const Eigen::Array<double, 4, 1>* node)
+{
+  return reinterpret_cast<const StoredQuad*>(node);
+}
+StoredPair* stored(Eigen::Array<double, 2, 1>* force)
+{
+  return reinterpret_cast<StoredPair*>(force);
 }
 
-/// Scatters one particle. `Source` says at compile time what pushes: the body's stress or the sheet's external force.
+/// Value of row p in column i of some columns.
+template <class Columns>
+double entry(const Columns& columns, int i, std::size_t p)
+{
+  return columns[static_cast<std::size_t>(i)][p];
+}
+
+/// Column j of a symmetric stress times `factor`.
+template <int Dim>
+ForceVector<Dim> stress_column(const Particles<Dim>& particles, std::size_t p, int j, double factor)
+{
+  const auto s = [&](int k) { return factor * entry(particles.stress, k, p); };
+  if constexpr (Dim == 2)
+    return j == 0 ? Pair{ s(0), s(2) } : Pair{ s(2), s(1) };
+  else
+    return j == 0   ? Quad{ s(0), s(3), s(4), 0.0 }
+           : j == 1 ? Quad{ s(3), s(1), s(5), 0.0 }
+                    : Quad{ s(4), s(5), s(2), 0.0 };
+}
+
+/// What a particle brings to the grid, before weights.
+template <int Dim>
+struct Load {
+  Quad momentum;                             ///< and mass
+  std::array<Quad, Dim> affine;              ///< momentum per offset
+  ForceVector<Dim> body;                     ///< per weight
+  std::array<ForceVector<Dim>, Dim> stress;  ///< per gradient
+};
+
+/// Says at compile time what pushes: the body's stress or the sheet's external force.
 enum class Source { stress, external };
 
 template <int Dim, Source source>
+Load<Dim> load_of(const Particles<Dim>& particles, std::size_t p, const Vec<Dim>& gravity)
+{
+  const double mass = particles.mass[p];
+  const auto v = [&](int i) { return mass * entry(particles.velocity, i, p); };
+  const auto c = [&](int i, int d) { return mass * entry(particles.affine, i * Dim + d, p); };
+  const auto f = [&](int i) {
+    const double weight = particles.weight_mass[p] * gravity[i];
+    return source == Source::external ? weight + entry(particles.force, i, p) : weight;
+  };
+  Load<Dim> load;
+  if constexpr (Dim == 2) {
+    load.momentum = Quad{ v(0), v(1), 0.0, mass };
+    load.body = Pair{ f(0), f(1) };
+    for (int d = 0; d < 2; ++d)
+      load.affine[static_cast<std::size_t>(d)] = Quad{ c(0, d), c(1, d), 0.0, 0.0 };
+  } else {
+    load.momentum = Quad{ v(0), v(1), v(2), mass };
+    load.body = Quad{ f(0), f(1), f(2), 0.0 };
+    for (int d = 0; d < 3; ++d)
+      load.affine[static_cast<std::size_t>(d)] = Quad{ c(0, d), c(1, d), c(2, d), 0.0 };
+  }
+  if constexpr (source == Source::stress)
+    for (int d = 0; d < Dim; ++d)
+      load.stress[static_cast<std::size_t>(d)] = stress_column<Dim>(particles, p, d, -particles.volume[p]);
+  return load;
+}
+
+/// Scatters one particle.
+template <int Dim, Source source>
 inline void scatter(const Particles<Dim>& particles, std::size_t p, const Vec<Dim>& gravity, Grid<Dim>& grid)
 {
-  using Node = typename Grid<Dim>::Node;
-  using Force = typename Grid<Dim>::Force;
   const Stencil<Dim> s = make_stencil<Dim>(position_of(particles, p), grid.origin(), grid.dx(), grid.inverse_dx());
-  const double mass = particles.mass[p];
-
-  Node momentum = Node::Zero();
-  std::array<Node, Dim> affine;
-  Force body = Force::Zero();
-  std::array<Force, Dim> stress;
-  momentum[Grid<Dim>::mass_slot] = mass;
-  for (int d = 0; d < Dim; ++d) {
-    momentum[d] = mass * particles.velocity[d][p];
-    affine[d] = Node::Zero();
-    for (int i = 0; i < Dim; ++i)
-      affine[d][i] = mass * particles.affine[i * Dim + d][p];
-    body[d] = particles.weight_mass[p] * gravity[d];
-    if constexpr (source == Source::external)
-      body[d] += particles.force[d][p];
-    else
-      stress[d] = stress_column<Dim>(particles, p, d, -particles.volume[p]);
-  }
+  const Load<Dim> load = load_of<Dim, source>(particles, p, gravity);
 
   // One row of three nodes along the fastest direction, given the product of the slower directions' factors.
-  const auto add_row = [&](std::size_t first, const Node& m0, const Node& m1, const Force& f0, const Force& f1) {
+  const auto add_row = [&](std::size_t first, Quad m0, Quad m1, ForceVector<Dim> f0, ForceVector<Dim> f1) {
     constexpr int last = Dim - 1;
-    Node* nodes = grid.nodes() + first;
-    Force* forces = grid.forces() + first;
-    for (int k = 0; k < 3; ++k) {
+    StoredQuad* nodes = stored(grid.nodes() + first);
+    auto* forces = stored(grid.forces() + first);
+    for (std::size_t k = 0; k < 3; ++k) {
       nodes[k] += s.weight[last][k] * (m0 + s.offset[last][k] * m1);
-      forces[k] += s.weight[last][k] * f0 + s.gradient[last][k] * f1;
+      if constexpr (source == Source::stress)
+        forces[k] += s.weight[last][k] * f0 + s.gradient[last][k] * f1;
+      else
+        forces[k] += s.weight[last][k] * f0;
     }
   };
 
   if constexpr (Dim == 2) {
     std::size_t first = grid.index(s.base);
-    for (int i = 0; i < 3; ++i, first += static_cast<std::size_t>(grid.counts()[1])) {
+    for (std::size_t i = 0; i < 3; ++i, first += static_cast<std::size_t>(grid.counts()[1])) {
       const double w = s.weight[0][i];
-      const Node m0 = w * (momentum + s.offset[0][i] * affine[0]);
-      const Node m1 = w * affine[1];
-      Force f0 = w * body;
-      Force f1 = Force::Zero();
+      ForceVector<Dim> f0 = w * load.body, f1{};
       if constexpr (source == Source::stress) {
-        f0 += s.gradient[0][i] * stress[0];
-        f1 = w * stress[1];
+        f0 += s.gradient[0][i] * load.stress[0];
+        f1 = w * load.stress[1];
       }
-      add_row(first, m0, m1, f0, f1);
+      add_row(first, w * (load.momentum + s.offset[0][i] * load.affine[0]), w * load.affine[1], f0, f1);
     }
   } else {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
         const double w = s.weight[0][i] * s.weight[1][j];
-        const Node m0 = w * (momentum + s.offset[0][i] * affine[0] + s.offset[1][j] * affine[1]);
-        const Node m1 = w * affine[2];
-        Force f0 = w * body;
-        Force f1 = Force::Zero();
+        ForceVector<Dim> f0 = w * load.body, f1{};
         if constexpr (source == Source::stress) {
-          f0 += s.gradient[0][i] * s.weight[1][j] * stress[0] + s.weight[0][i] * s.gradient[1][j] * stress[1];
-          f1 = w * stress[2];
+          f0 += s.gradient[0][i] * s.weight[1][j] * load.stress[0] + s.weight[0][i] * s.gradient[1][j] * load.stress[1];
+          f1 = w * load.stress[2];
         }
-        add_row(grid.index({ s.base[0] + i, s.base[1] + j, s.base[2] }), m0, m1, f0, f1);
+        add_row(grid.index({ s.base[0] + static_cast<int>(i), s.base[1] + static_cast<int>(j), s.base[2] }),
+                w * (load.momentum + s.offset[0][i] * load.affine[0] + s.offset[1][j] * load.affine[1]),
+                w * load.affine[2], f0, f1);
       }
   }
 }
@@ -102,54 +160,56 @@ inline void scatter(const Particles<Dim>& particles, std::size_t p, const Vec<Di
 template <int Dim>
 inline void gather(const Grid<Dim>& grid, double dt, bool want_gradient, Particles<Dim>& particles, std::size_t p)
 {
-  using Node = typename Grid<Dim>::Node;
   const Stencil<Dim> s = make_stencil<Dim>(position_of(particles, p), grid.origin(), grid.dx(), grid.inverse_dx());
   constexpr int last = Dim - 1;
-
-  Node velocity = Node::Zero();
-  std::array<Node, Dim> moment, gradient;
-  moment.fill(Node::Zero());
-  gradient.fill(Node::Zero());
-  const auto sum_row = [&](std::size_t first, Node& value, Node& value_moment, Node& value_gradient) {
-    const Node* nodes = grid.nodes() + first;
-    value = s.weight[last][0] * nodes[0] + s.weight[last][1] * nodes[1] + s.weight[last][2] * nodes[2];
-    value_moment = s.weight[last][0] * s.offset[last][0] * nodes[0] + s.weight[last][1] * s.offset[last][1] * nodes[1] +
-                   s.weight[last][2] * s.offset[last][2] * nodes[2];
-    value_gradient = s.gradient[last][0] * nodes[0] + s.gradient[last][1] * nodes[1] + s.gradient[last][2] * nodes[2];
+  const auto& w_last = s.weight[last];
+  const auto& g_last = s.gradient[last];
+  const std::array<double, 3> moment_weight{ w_last[0] * s.offset[last][0], w_last[1] * s.offset[last][1],
+                                             w_last[2] * s.offset[last][2] };
+  struct Row {
+    Quad value, moment, gradient;
+  };
+  const auto sum_row = [&](std::size_t first) {
+    const StoredQuad* nodes = stored(grid.nodes() + first);
+    return Row{ w_last[0] * nodes[0] + w_last[1] * nodes[1] + w_last[2] * nodes[2],
+                moment_weight[0] * nodes[0] + moment_weight[1] * nodes[1] + moment_weight[2] * nodes[2],
+                g_last[0] * nodes[0] + g_last[1] * nodes[1] + g_last[2] * nodes[2] };
   };
 
-  Node value, value_moment, value_gradient;
+  Quad velocity{};
+  std::array<Quad, Dim> moment{}, gradient{};
   if constexpr (Dim == 2) {
     std::size_t first = grid.index(s.base);
-    for (int i = 0; i < 3; ++i, first += static_cast<std::size_t>(grid.counts()[1])) {
-      sum_row(first, value, value_moment, value_gradient);
+    for (std::size_t i = 0; i < 3; ++i, first += static_cast<std::size_t>(grid.counts()[1])) {
+      const Row row = sum_row(first);
       const double w = s.weight[0][i];
-      velocity += w * value;
-      moment[0] += w * s.offset[0][i] * value;
-      moment[1] += w * value_moment;
-      gradient[0] += s.gradient[0][i] * value;
-      gradient[1] += w * value_gradient;
+      velocity += w * row.value;
+      moment[0] += w * s.offset[0][i] * row.value;
+      moment[1] += w * row.moment;
+      gradient[0] += s.gradient[0][i] * row.value;
+      gradient[1] += w * row.gradient;
     }
   } else {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        sum_row(grid.index({ s.base[0] + i, s.base[1] + j, s.base[2] }), value, value_moment, value_gradient);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Row row =
+            sum_row(grid.index({ s.base[0] + static_cast<int>(i), s.base[1] + static_cast<int>(j), s.base[2] }));
         const double w = s.weight[0][i] * s.weight[1][j];
-        velocity += w * value;
-        moment[0] += w * s.offset[0][i] * value;
-        moment[1] += w * s.offset[1][j] * value;
-        moment[2] += w * value_moment;
-        gradient[0] += s.gradient[0][i] * s.weight[1][j] * value;
-        gradient[1] += s.weight[0][i] * s.gradient[1][j] * value;
-        gradient[2] += w * value_gradient;
+        velocity += w * row.value;
+        moment[0] += w * s.offset[0][i] * row.value;
+        moment[1] += w * s.offset[1][j] * row.value;
+        moment[2] += w * row.moment;
+        gradient[0] += s.gradient[0][i] * s.weight[1][j] * row.value;
+        gradient[1] += s.weight[0][i] * s.gradient[1][j] * row.value;
+        gradient[2] += w * row.gradient;
       }
   }
 
   const double inverse_inertia = 1.0 / bspline_inertia(grid.dx());
-  for (int i = 0; i < Dim; ++i) {
+  for (std::size_t i = 0; i < Dim; ++i) {
     particles.velocity[i][p] = velocity[i];
     particles.position[i][p] += dt * velocity[i];
-    for (int j = 0; j < Dim; ++j) {
+    for (std::size_t j = 0; j < Dim; ++j) {
       particles.affine[i * Dim + j][p] = inverse_inertia * moment[j][i];
       if (want_gradient)
         particles.gradient[i * Dim + j][p] = gradient[j][i];

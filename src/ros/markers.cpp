@@ -13,7 +13,7 @@ using visualization_msgs::Marker;
 
 constexpr double outline_width_m = 0.04;
 constexpr double legend_height_m = 0.32;
-constexpr double legend_above_hinge_m = 1.6;
+constexpr double legend_above_hinge_m = 2.4;
 
 geometry_msgs::Point to_point(double x, const Vec2& section)
 {

@@ -257,20 +257,32 @@ TEST(ContactSolver, TwoWallsAtOneNodeHoldAPointInTheirV)
     // Walls that open by 60 to 150 degrees above the tip, each with its own friction; points a little above it.
     const double half = chance(30.0, 75.0) * pi / 180.0;
     const Vec2 port(-std::cos(half), std::sin(half)), starboard(std::cos(half), std::sin(half));
-    std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), port, chance(0.0, 0.5)),
-                                      wall(Vec2::Zero(), starboard, chance(0.0, 0.5)) };
+    const std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), port, chance(0.0, 0.5)),
+                                            wall(Vec2::Zero(), starboard, chance(0.0, 0.5)) };
     Patch patch({ { 0.0, chance(0.0, 0.003) }, { 0.05, chance(0.09, 0.15) }, { -0.05, chance(0.09, 0.15) } });
-    patch.set_velocity({ chance(-1.0, 1.0), -chance(1.0, 4.0) });
-    patch.to_grid();
-    const Solved solved = solve(bodies, patch);
-    RC_ASSERT(solved.boundary[0].impulse.dot(port) >= 0.0);
-    RC_ASSERT(solved.boundary[1].impulse.dot(starboard) >= 0.0);
-    for (std::size_t p = 0; p < patch.size(); ++p) {
-      const Vec2 next = patch.at(p) + dt * patch.velocity_at(patch.at(p));
-      const double allowed = 1e-2 * dt;
-      RC_ASSERT(next.dot(port) > std::min(0.0, patch.at(p).dot(port)) - allowed);
-      RC_ASSERT(next.dot(starboard) > std::min(0.0, patch.at(p).dot(starboard)) - allowed);
-    }
+    const Vec2 impact(chance(-1.0, 1.0), -chance(1.0, 4.0));
+    patch.set_velocity(impact);
+    ContactSolver solver;
+    const auto worst = [&] {  // velocity that still leads behind a wall, part of the impact's
+      patch.to_grid();
+      const Solved solved = solve(solver, bodies, patch);
+      RC_ASSERT(solved.boundary[0].impulse.dot(port) >= 0.0);
+      RC_ASSERT(solved.boundary[1].impulse.dot(starboard) >= 0.0);
+      double velocity = 0.0;
+      for (std::size_t p = 0; p < patch.size(); ++p)
+        for (const Vec2& normal : { port, starboard }) {
+          const double distance = patch.at(p).dot(normal);
+          velocity = std::max(velocity, -std::max(0.0, distance) / dt - patch.velocity_at(patch.at(p)).dot(normal));
+        }
+      return velocity / impact.norm();
+    };
+    // Six conditions on shared nodes, met in one step by a fixed number of sweeps from nothing; then, as a load that
+    // stays is, from the last step's impulses.
+    RC_ASSERT(worst() < 0.1);
+    double after = 1.0;
+    for (int step = 0; step < 100; ++step)
+      after = worst();
+    RC_ASSERT(after < 1e-6);
   }));
 }
 

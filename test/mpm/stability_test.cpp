@@ -100,7 +100,7 @@ TYPED_TEST(Stability, BoundIsSafeAndNotFarFromTheTruth)
     most = std::max(most, ratio);
   }
   EXPECT_GE(least, 1.0);
-  EXPECT_LE(most, 2.5);
+  EXPECT_LE(most, 2.0);
   this->RecordProperty("least", std::to_string(least));
   this->RecordProperty("most", std::to_string(most));
 }

@@ -2,7 +2,9 @@
 /// The geotextile as a FEM surface coupled to the grid (Hamad, Moormann, Vermeer 2012; Hamad et al. 2014): nodes are
 /// material points that move with the grid's velocity, two-node segments between them carry tension only.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "geocontainer_mpm/mpm/grid.h"
@@ -43,13 +45,23 @@ public:
   double enclosed_area() const;   ///< m^2
 
   /// Bound on the square of the largest frequency that the sheet adds to the grid whose nodal masses stand in `grid`,
-  /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there.
+  /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there. Segments
+  /// that are slack, and will still be after the next step, add nothing. Call after update_forces().
   double frequency_bound(const mpm::Grid<2>& grid);
 
 private:
   SheetParameters parameters_;
   mpm::Particles<2> nodes_;
-  std::vector<double> rest_length_, tension_;
+  std::vector<double> rest_length_, tension_, strain_;
+
+  /// How the weights of one segment's ends differ over the grid nodes that either reaches.
+  struct Difference {
+    std::array<std::uint32_t, 36> node;
+    std::array<double, 36> magnitude;  ///< |w_i(b) - w_i(a)|
+    std::size_t count;
+  };
+  Difference difference(std::size_t segment, const mpm::Grid<2>& grid) const;
+  std::vector<Difference> differences_;  ///< scratch of frequency_bound
   std::vector<double> nodal_stiffness_;  ///< scratch over grid nodes, zero between calls
 };
 

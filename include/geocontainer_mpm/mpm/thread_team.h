@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -48,10 +49,11 @@ private:
   std::vector<std::thread> helpers_;
   Piece piece_ = nullptr;
   void* context_ = nullptr;
-  int count_ = 0;
-  std::atomic<int> next_{ 0 };             ///< piece to take
-  std::atomic<int> busy_{ 0 };             ///< helpers that have not finished the present work
-  std::atomic<unsigned> generation_{ 0 };  ///< counts calls of run(); helpers wait for it to change
+  /// Number of this work, its count and the next piece in one word, so that whoever takes a ticket knows what it is
+  /// for.
+  std::atomic<std::uint64_t> ticket_{ 0 };
+  std::atomic<int> done_{ 0 };       ///< pieces of this work that are finished
+  std::atomic<unsigned> work_{ 0 };  ///< counts calls of run(); helpers wait for it to change
   std::atomic<bool> stop_{ false };
   std::mutex mutex_;
   std::condition_variable wake_;
