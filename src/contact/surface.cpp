@@ -30,15 +30,17 @@ Nearest Surface::nearest(const Vec2& point) const
   for (std::size_t k = 0; k < segments; ++k) {
     const Vec2 from_start = point - line_[k];
     const double along = from_start.dot(tangent_[k]);
-    // Beyond either end of the whole line there is nothing to touch.
-    if ((k == 0 && along < 0.0) || (k + 1 == segments && along > length_[k]))
-      continue;
     const double clamped = std::fmin(std::fmax(along, 0.0), length_[k]);
     const Vec2 apart = from_start - clamped * tangent_[k];
     const double square = apart.squaredNorm();
     if (square >= best)
       continue;
     best = square;
+    // Beyond either end of the whole line there is nothing to touch.
+    if ((k == 0 && along < 0.0) || (k + 1 == segments && along > length_[k])) {
+      result = { std::numeric_limits<double>::infinity(), Vec2::Zero() };
+      continue;
+    }
     const Vec2 normal = left_normal(tangent_[k]);
     if (along == clamped) {
       result = { from_start.dot(normal), normal };

@@ -171,7 +171,7 @@ TEST(Simulate, SeesTheSameLogInABagAndInACsvFile)
   const auto summary = [&](const char* option, const char* log) {
     const Result result = simulate(
         folder, { scene_file("release.yaml"), option, std::string(GEOCONTAINER_MPM_SOURCE_DIR "/config/logs/") + log,
-                  "--until", "7", "--set", "grid.cell_size_m=0.2", "--set",
+                  "--until", "12", "--set", "grid.cell_size_m=0.2", "--set",
                   "geotextiles.container.segment_length_m=0.2", "--summary", folder.file("out.json") });
     EXPECT_EQ(result.status, 0) << result.err;
     return Json::parse(read_text(folder.file("out.json")));
