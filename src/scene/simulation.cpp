@@ -176,7 +176,8 @@ bool Simulation::State::output_reached()
 /// How long everything has been slow in a hull that stands still, s.
 double Simulation::State::still_for_s() const
 {
-  const bool hull_still = !scene.hull || opening.next_motion_s(progress.time_s) > progress.time_s;
+  // At rest the hull is known to have been still; the end of the known opening must not look like motion.
+  const bool hull_still = progress.resting || !scene.hull || opening.next_motion_s(progress.time_s) > progress.time_s;
   return hull_still ? progress.time_s - progress.still_since_s : 0.0;
 }
 
@@ -215,7 +216,7 @@ bool Simulation::State::step_once(Advance& result)
       dt = left > dt ? 0.5 * left : left;  // land on the instant without a sliver of a step
   }
   const double after = progress.time_s + dt;
-  if (scene.hull && after > opening.known_until_s())
+  if (scene.hull && after >= opening.known_until_s())
     return false;
   const StepStatus status =
       model.step(dt, poses(angles_at(progress.time_s)), poses(angles_at(after)), scene.numerics.damping_per_s);
