@@ -51,12 +51,16 @@ Model::Model(const SceneDescription& scene, int threads)
   build_bodies(scene);
   build_sheets(scene);
   build_boundaries(scene);
+  const auto weigh = [this](const mpm::Particles<2>& particles) {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      inertia_ += particles.mass[p];
+      weight_mass_ += particles.weight_mass[p];
+    }
+  };
   for (const Body& body : bodies_)
-    for (double mass : body.particles.mass)
-      inertia_ += mass;
+    weigh(body.particles);
   for (const EnclosingSheet& sheet : sheets_)
-    for (double mass : sheet.sheet.nodes().mass)
-      inertia_ += mass;
+    weigh(sheet.sheet.nodes());
   survey();
 }
 

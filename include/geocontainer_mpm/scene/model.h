@@ -114,7 +114,8 @@ private:
   double stable_dt_ = 0.0, last_dt_ = 0.0;
   double kinetic_ = 0.0;  ///< on the grid after the last step, J/m
   bool kinetic_known_ = false;
-  double inertia_ = 0.0;  ///< all mass, kg/m
+  double weight_mass_ = 0.0;  ///< what gravity pulls in all, kg/m
+  double inertia_ = 0.0;      ///< all mass, kg/m
   Ledger ledger_;
   SkippedCounts skipped_;
   StageTimes stages_;
