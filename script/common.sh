@@ -8,7 +8,7 @@ export PATH="/usr/bin:/bin:/usr/sbin:/sbin:$PATH"
 # Debian 12 (bookworm) packages.
 core_packages=(build-essential cmake ninja-build pkg-config
   libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libyaml-cpp-dev nlohmann-json3-dev
-  libgtest-dev librapidcheck-dev)
+  libgtest-dev librapidcheck-dev python3-h5py python3-matplotlib python3-numpy)
 ros_packages=(ros-core-dev catkin
   libdiagnostic-updater-dev librosbag-dev libroscpp-dev libtf2-eigen-dev libtf2-geometry-msgs-dev libtf2-ros-dev
   libdiagnostic-msgs-dev libgeometry-msgs-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libvisualization-msgs-dev
@@ -16,8 +16,8 @@ ros_packages=(ros-core-dev catkin
   python3-visualization-msgs
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam python3-rospy python3-rosservice
   python3-rostopic rosbash rosout librostest-dev python3-rostest python3-rosunit
-  python3-h5py python3-numpy ros-robot-state-publisher)
-demo_packages=(rviz python3-matplotlib python3-h5py python3-numpy imagemagick xvfb xauth x11-utils libgl1-mesa-dri procps)
+  ros-robot-state-publisher)
+demo_packages=(rviz imagemagick xvfb xauth x11-utils libgl1-mesa-dri procps)
 lint_packages=(git clang-format clang-tidy catkin-lint)
 bench_packages=(libbenchmark-dev)
 
