@@ -46,7 +46,7 @@ public:
 
   /// Bound on the square of the largest frequency that the sheet adds to the grid whose nodal masses stand in `grid`,
   /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there. Segments
-  /// that are slack, and will still be after the next step, add nothing. Call after update_forces().
+  /// that are slack by more than a margin add nothing. Call after update_forces().
   double frequency_bound(const mpm::Grid<2>& grid);
 
 private:

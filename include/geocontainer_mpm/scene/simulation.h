@@ -17,7 +17,7 @@ enum class Advance {
   stepped,    ///< one or more steps or a jump over rest; call again
   frame_due,  ///< the same, and an output instant was reached: frame() is the one to keep
   waiting,    ///< the opening is not known far enough ahead yet: add samples, or tell the clock
-  finished,   ///< end_s is reached, or everything rests for good after the last sample
+  finished,   ///< end_s is reached
   stopped     ///< the solver had to stop; see failure()
 };
 
