@@ -32,8 +32,8 @@ std::vector<Vec2> resample(const std::vector<Vec2>& outline, std::size_t count)
   return points;
 }
 
-/// Segments shorter than this part of their rest length are taken to stay slack over a step. A choice, not a bound: at a
-/// hard landing a strain can change by more in a step, and the stiffness then counts from the next step on.
+/// Segments shorter than this part of their rest length are taken to stay slack over a step. A choice, not a bound: at
+/// a hard landing a strain can change by more in a step, and the stiffness then counts from the next step on.
 constexpr double slack_strain = -0.01;
 
 }  // namespace
