@@ -12,14 +12,27 @@
 
 #include "geocontainer_mpm/barge/opening_signal.h"
 #include "geocontainer_mpm/material/parameters.h"
+#include "geocontainer_mpm/mpm/discretisation.h"
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/types.h"
 
 namespace geocontainer_mpm::scene {
 
+/// One row of a table over time: time, s, and values. Between rows the values are interpolated linearly; before the
+/// first and after the last row they stay.
+template <int Count>
+struct TableRow {
+  double time_s = 0.0;
+  std::array<double, Count> value{};
+};
+template <int Count>
+using TimeTable = std::vector<TableRow<Count>>;  ///< times strictly ascending; empty: not given
+
 struct TimeDescription {
   double end_s = 0.0;              ///< simulated time at which the run is complete, s, > 0
   double output_interval_s = 0.1;  ///< spacing of frames (record, topics), s, > 0
+  /// Spacing of the samples of `probes`, s, > 0; not given: every frame.
+  std::optional<double> probe_interval_s;
 };
 
 /// What a face of the grid does to material that reaches it.
@@ -35,6 +48,7 @@ struct GridDescription {
 };
 
 struct NumericsDescription {
+  mpm::Discretisation method;           ///< shape, transfer, flip_fraction, mass, update, smoothing
   double time_step_factor = 0.8;        ///< fraction of the stability bound that a step may use, (0, 1]
   double max_step_s = 0.01;             ///< upper bound of a step, s, > 0
   double max_travel_cells = 0.25;       ///< furthest a particle may move in a step, cells, (0, 0.5]
@@ -42,6 +56,8 @@ struct NumericsDescription {
   bool skip_resting = true;             ///< no steps while nothing moves
   double rest_velocity_m_per_s = 2e-3;  ///< root-mean-square velocity below which a body counts as resting, m/s, > 0
   double rest_time_s = 0.5;             ///< how long it must stay below, s, > 0
+  int max_halvings = 6;                 ///< how often a step that went wrong is halved before the run ends, [0, 20]
+  double energy_jump = 0.1;             ///< energy from nowhere, over that present or exchanged, that undoes steps, > 0
 };
 
 struct Box {
@@ -53,6 +69,11 @@ struct Disc {
   Vec2 center_m;
   double radius_m = 0.0;
 };
+struct Ring {
+  Vec2 center_m;
+  double inner_radius_m = 0.0;  ///< > 0
+  double outer_radius_m = 0.0;  ///< > inner radius
+};
 struct Polygon {
   std::vector<Vec2> vertices_m;  ///< at least 3, simple, either sense
 };
@@ -60,39 +81,120 @@ struct Polygon {
 struct HopperFill {
   double area_m2 = 0.0;
 };
-/// Exactly one of the four is set.
+/// Exactly one of the five is set.
 struct ShapeDescription {
   std::optional<Box> box;
   std::optional<Disc> disc;
+  std::optional<Ring> ring;
   std::optional<Polygon> polygon;
   std::optional<HopperFill> hopper_fill;
 };
 
 enum class InitialStress {
-  none,    ///< stress-free
-  k0,      ///< vertical stress from the depth below the body's top at that y, horizontal by K0
-  gravity  ///< k0, then settled under gravity with damping, hulls closed, until it rests; clock and history start after
+  none,        ///< stress-free
+  k0,          ///< vertical stress from the depth below the body's top at that y, horizontal by K0
+  gravity,     ///< k0, then settled under gravity with damping, hulls closed, until it rests; clock and history start
+               ///< after
+  hydrostatic  ///< the same pressure in all directions, from the depth: how a fluid starts
+};
+
+/// Motions with a known body force (method of manufactured solutions): the body starts on the solution, is driven by
+/// its body force, and the distance of its particles from the solution is the error.
+enum class ManufacturedSolution {
+  axis_aligned,  ///< u_i = A sin(pi X_i) sin(c pi t + f_i) in the unit square (Wallstedt & Guilkey 2008), f = (0, pi)
+  vortex         ///< generalized vortex in the ring 0.75 m < R < 1.25 m (Kamojjala et al. 2015)
+};
+struct ManufacturedDescription {
+  ManufacturedSolution solution = ManufacturedSolution::axis_aligned;
+  double amplitude = 0.05;       ///< A: m (axis_aligned) or rad (vortex), > 0
+  Vec2 origin_m = Vec2::Zero();  ///< lower corner of the unit square, or centre of the ring, m
 };
 
 struct BodyDescription {
   std::string material;  ///< a key of `materials`
   ShapeDescription shape;
   int particles_per_cell = 2;  ///< in each direction, 1 to 4
+  /// Bodies that name the same field move in one velocity field and stick together where they meet. Fields touch by
+  /// `contacts`. Empty: the common field, called `common`.
+  std::string velocity_field;
   Vec2 initial_velocity_m_per_s = Vec2::Zero();
   InitialStress initial_stress = InitialStress::none;
-  double k0 = 0.5;  ///< horizontal over vertical stress for k0 and gravity, [0, 2]
+  double k0 = 0.5;                                      ///< horizontal over vertical stress for k0 and gravity, [0, 2]
+  std::optional<ManufacturedDescription> manufactured;  ///< needs law neo_hookean and no gravity
+};
+
+/// Axis-parallel rectangle that selects.
+struct Region {
+  Vec2 lower_m = Vec2::Zero(), upper_m = Vec2::Zero();
+};
+
+/// Grid nodes in a region that do not move, or move as prescribed, whatever is on them.
+struct SupportDescription {
+  Region region;                        ///< nodes within, edges included
+  bool holds_y = true, holds_z = true;  ///< at least one
+  TimeTable<2> velocity_table;          ///< [t, v_y, v_z], m/s; empty: still
+};
+
+/// Stress on a body's boundary, carried along with it.
+struct TractionDescription {
+  std::string body;
+  /// Selects the pieces of the body's boundary whose middle lies within at the start; not given: all of it.
+  std::optional<Region> region;
+  Vec2 traction_pa = Vec2::Zero();  ///< force per present area, direction fixed in space
+  double pressure_pa = 0.0;         ///< against the present surface, inwards positive
+  TimeTable<1> table;               ///< [t, factor] on both; empty: 1
+};
+
+/// Contact between two velocity fields. Every pair of fields of a scene is named once.
+struct ContactDescription {
+  std::vector<std::string> between;  ///< two names of velocity fields
+  double friction = 0.0;             ///< Coulomb coefficient, >= 0
+};
+
+/// Path along which a free sheet is laid.
+struct SheetLine {
+  std::vector<Vec2> points_m;  ///< at least 2, open or closed
+  bool closed = false;         ///< joined from the last point to the first
+};
+
+/// What happens at one end of an open sheet.
+struct SheetEnd {
+  bool held = false;                  ///< stays at its place, or follows `motion_table`
+  TimeTable<2> motion_table;          ///< [t, y, z]: displacement of a held end, m
+  Vec2 force_n_per_m = Vec2::Zero();  ///< pulls at a free end
+  TimeTable<1> force_table;           ///< [t, factor] on force_n_per_m; empty: 1
+};
+
+/// Pressure on the inner side of a closed sheet: p(z) = (pressure_pa + gradient_pa_per_m (z_ref - z)) factor, where
+/// z_ref is level_m, or the sheet's own highest point when no level is given.
+struct InsidePressure {
+  double pressure_pa = 0.0;
+  double gradient_pa_per_m = 0.0;  ///< unit weight of what is inside, >= 0
+  std::optional<double> level_m;
+  TimeTable<1> table;  ///< [t, factor]; empty: 1
 };
 
 struct GeotextileDescription {
-  std::string encloses;            ///< the body around whose outline the closed sheet is laid
-  double circumference_m = 0.0;    ///< unstretched length around; the excess over the outline is slack laid in evenly
-  double stiffness_n_per_m = 0.0;  ///< J (warp), force per width and strain, > 0
-  double mass_kg_per_m2 = 0.0;     ///< true mass: what gravity pulls, > 0
-  double computational_mass_kg_per_m2 = 0.0;  ///< inertia used (mass scaling), >= true mass
-  double strength_n_per_m = 0.0;              ///< tensile strength of the sheet (warp), > 0
-  double seam_efficiency = 0.85;              ///< strength of a seam over the sheet's, (0, 1]
-  double segment_length_m = 0.0;              ///< wanted length of a membrane segment, > 0; about a cell
-  double gauge_length_m = 0.5;                ///< reported tension is the mean over this length, >= segment length
+  // Exactly one of these three says where it is laid.
+  std::string encloses;  ///< the body around whose outline the closed sheet is laid
+  std::optional<SheetLine> line;
+  std::optional<Disc> circle;  ///< closed, along a circle
+  // At most one of these three says how long it is unstretched; none: as long as its path. The difference is spread
+  // evenly.
+  double circumference_m = 0.0;              ///< unstretched length around, or from end to end
+  std::optional<double> slack;               ///< unstretched length over that of the path, less 1, >= 0
+  std::optional<double> pretension_n_per_m;  ///< tension in the path as laid, >= 0
+  SheetEnd start, end;                       ///< of an open line
+  std::optional<InsidePressure> inside_pressure;
+  std::string velocity_field;                    ///< of a free sheet; an enclosing one moves with its body
+  Vec2 initial_velocity_m_per_s = Vec2::Zero();  ///< of a free sheet
+  double stiffness_n_per_m = 0.0;                ///< J (warp), force per width and strain, > 0
+  double mass_kg_per_m2 = 0.0;                   ///< true mass: what gravity pulls, > 0
+  double computational_mass_kg_per_m2 = 0.0;     ///< inertia used (mass scaling), >= true mass
+  double strength_n_per_m = 0.0;                 ///< tensile strength of the sheet (warp), > 0
+  double seam_efficiency = 0.85;                 ///< strength of a seam over the sheet's, (0, 1]
+  double segment_length_m = 0.0;                 ///< wanted length of a membrane segment, > 0; about a cell
+  double gauge_length_m = 0.5;                   ///< reported tension is the mean over this length, >= segment length
 };
 
 /// One opening row of a table: time, s, and both angles, rad.
@@ -113,10 +215,42 @@ struct HullDescription {
   barge::OpeningSignalParameters signal;  ///< how logged angles are judged and filtered
 };
 
-/// A rigid surface that stands still.
+/// Prescribed rigid motion: x = pivot + R(angle) (X - pivot) + displacement.
+struct MotionDescription {
+  Vec2 pivot_m = Vec2::Zero();
+  TimeTable<3>
+      table;  ///< [t, y, z, angle]: displacement, m, and rotation about +x (y towards z), rad; at least one row
+};
+
+/// A rigid surface of boundary particles.
 struct SurfaceDescription {
-  std::vector<Vec2> line_m;  ///< open polyline; the free side is on the left walking along it
-  double friction = 0.0;     ///< Coulomb coefficient, >= 0
+  std::vector<Vec2> line_m;                 ///< polyline; the free side is on the left walking along it
+  bool closed = false;                      ///< joined from the last point to the first
+  double corner_radius_m = 0.0;             ///< corners of an open line are rounded with this radius, m, >= 0
+  double friction = 0.0;                    ///< Coulomb coefficient, >= 0
+  std::optional<MotionDescription> motion;  ///< not given: stands still
+};
+
+// What is measured during a run, as time series in summary and record.
+struct PointProbe {
+  std::string body;
+  Vec2 at_m = Vec2::Zero();  ///< where the material point is at the start; it moves with the body
+};
+struct SectionProbe {
+  Vec2 from_m = Vec2::Zero(), to_m = Vec2::Zero();  ///< straight cut, fixed in space
+};
+struct GeotextileProbe {
+  std::string geotextile;
+  std::optional<Vec2> at_m;  ///< the sheet's point nearest to this at the start is followed as well
+};
+/// Exactly one is set.
+struct ProbeDescription {
+  std::optional<PointProbe> point;      ///< displacement, velocity, stress of a material point
+  std::optional<std::string> body;      ///< a body's centroid, mean velocity, mean stress, volume, extent, energies
+  std::optional<SectionProbe> section;  ///< force that the right side of the cut exerts on the left side
+  std::optional<GeotextileProbe> geotextile;  ///< largest and mean tension, length, enclosed area, extent
+  std::optional<std::string> surface;       ///< force, moment about the pivot, and work of a rigid surface or hull half
+  std::optional<std::string> manufactured;  ///< a body's distance from its manufactured solution
 };
 
 /// When the container counts as released, hung up, at rest.
@@ -129,6 +263,7 @@ struct SceneDescription {
   std::string description;  ///< one sentence
   std::string source;       ///< file it came from, for messages; empty for one built in code
   Vec2 gravity_m_per_s2{ 0.0, -9.81 };
+  TimeTable<2> gravity_table;  ///< [t, g_y, g_z]: body force per mass over time, m/s^2, instead of gravity_m_per_s2
   TimeDescription time;
   GridDescription grid;
   NumericsDescription numerics;
@@ -136,7 +271,11 @@ struct SceneDescription {
   std::map<std::string, BodyDescription> bodies;             ///< at least one
   std::map<std::string, GeotextileDescription> geotextiles;  ///< each around its own body
   std::optional<HullDescription> hull;
-  std::map<std::string, SurfaceDescription> surfaces;  ///< the bed and other fixed surfaces
+  std::map<std::string, SurfaceDescription> surfaces;  ///< the bed and other rigid surfaces
+  std::map<std::string, SupportDescription> supports;
+  std::map<std::string, TractionDescription> tractions;
+  std::map<std::string, ContactDescription> contacts;  ///< between velocity fields
+  std::map<std::string, ProbeDescription> probes;
   OutcomeDescription outcome;
 
   /// Throws InputError naming `source`, the dotted key, its value and what is allowed.

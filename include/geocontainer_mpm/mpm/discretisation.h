@@ -1,0 +1,37 @@
+#pragma once
+/// The choices of the spatial and temporal discretisation that a scene may make. Each is a compile-time branch inside
+/// `mpm`: what is not chosen costs nothing.
+
+namespace geocontainer_mpm::mpm {
+
+/// bspline2: quadratic B-splines (Steffen, Kirby and Berzins 2008). linear_simplex: the founding paper's, three-node
+/// triangles (two a cell) or four-node tetrahedra (six a cell).
+enum class Shape { bspline2, linear_simplex };
+
+/// apic: affine (Jiang et al. 2015). flip: the grid's change of velocity, blended with its velocity by `flip_fraction`
+/// (Brackbill and Ruppel 1986; Stomakhin et al. 2013).
+enum class Transfer { apic, flip };
+
+/// consistent: the full mass matrix of the particles, solved by conjugate gradients (Burgess, Sulsky and Brackbill
+/// 1992); with flip only.
+enum class MassMatrix { lumped, consistent };
+
+/// When stress is updated (Bardenhagen 2002): last, from the grid's velocity after the forces; first, from the velocity
+/// before them; last, from a velocity mapped back from the moved particles (Sulsky, Zhou and Schreyer 1995).
+enum class UpdateOrder { usl, usf, musl };
+
+/// Remedies of linear elements. cell_average: force from the mean stress of an element, integrated over the element
+/// where it is full (Beuth, Wieckowski and Vermeer 2011: "mixed integration"). nodal_mixed: volumetric strain rate
+/// averaged over the nodes (nodal mixed discretisation, Detournay and Dzik 2006).
+enum class Smoothing { none, cell_average, nodal_mixed };
+
+struct Discretisation {
+  Shape shape = Shape::bspline2;
+  Transfer transfer = Transfer::apic;
+  double flip_fraction = 1.0;  ///< 1: pure FLIP, 0: pure PIC, [0, 1]
+  MassMatrix mass = MassMatrix::lumped;
+  UpdateOrder update = UpdateOrder::usl;
+  Smoothing smoothing = Smoothing::none;
+};
+
+}  // namespace geocontainer_mpm::mpm
