@@ -1,0 +1,119 @@
+#pragma once
+/// The grid nodes that a point reaches, with weights and gradients, for every shape. The transfers of bspline2 have
+/// their own separable loops; everything that looks at few points, and the linear simplices, use these lists.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "geocontainer_mpm/mpm/bspline.h"
+#include "geocontainer_mpm/mpm/discretisation.h"
+#include "geocontainer_mpm/mpm/grid.h"
+
+namespace geocontainer_mpm::mpm {
+
+template <int Dim, int Most>
+struct Reach {
+  std::array<std::uint32_t, Most> node;  ///< storage index
+  std::array<double, Most> weight;       ///< sum 1
+  std::array<Vec<Dim>, Most> gradient;   ///< 1/m, sum 0
+  int count;
+};
+
+template <int Dim>
+inline constexpr int most_nodes = Dim == 2 ? 9 : 27;
+template <int Dim>
+using AnyReach = Reach<Dim, most_nodes<Dim>>;
+
+/// The 3^Dim nodes of quadratic B-splines, fastest index last.
+template <int Dim>
+inline Reach<Dim, most_nodes<Dim>> bspline_reach(const Vec<Dim>& point, const Grid<Dim>& grid)
+{
+  std::array<double, Dim> x;
+  for (int d = 0; d < Dim; ++d)
+    x[static_cast<std::size_t>(d)] = point[d];
+  const Stencil<Dim> s = make_stencil<Dim>(x, grid.origin(), grid.dx(), grid.inverse_dx());
+  Reach<Dim, most_nodes<Dim>> reach;
+  reach.count = most_nodes<Dim>;
+  for (int k = 0; k < reach.count; ++k) {
+    std::array<int, Dim> node;
+    std::array<std::size_t, Dim> at;
+    for (int d = Dim - 1, rest = k; d >= 0; --d, rest /= 3) {
+      const auto slot = static_cast<std::size_t>(d);
+      at[slot] = static_cast<std::size_t>(rest % 3);
+      node[slot] = s.base[slot] + rest % 3;
+    }
+    const auto slot = static_cast<std::size_t>(k);
+    reach.node[slot] = static_cast<std::uint32_t>(grid.index(node));
+    reach.weight[slot] = 1.0;
+    reach.gradient[slot].setOnes();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      reach.weight[slot] *= s.weight[d][at[d]];
+      for (std::size_t g = 0; g < Dim; ++g)
+        reach.gradient[slot][static_cast<Eigen::Index>(g)] *= g == d ? s.gradient[d][at[d]] : s.weight[d][at[d]];
+    }
+  }
+  return reach;
+}
+
+/// The Dim + 1 nodes of the linear simplex around a point. Every cell is cut along the order of a point's fractional
+/// coordinates (Freudenthal 1942; Kuhn 1960): triangles 2, tetrahedra 6 a cell. Cells of odd index are mirrored, so
+/// that neighbouring diagonals form a union jack and no direction is preferred.
+template <int Dim>
+inline Reach<Dim, Dim + 1> simplex_reach(const Vec<Dim>& point, const Grid<Dim>& grid)
+{
+  std::array<int, Dim> node, step;
+  std::array<double, Dim> f;
+  std::array<std::size_t, Dim> order;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto c = static_cast<Eigen::Index>(d);
+    const double xi = (point[c] - grid.origin()[c]) * grid.inverse_dx();
+    const double cell = std::floor(xi);
+    const int index = static_cast<int>(cell);
+    const bool mirrored = (index & 1) != 0;
+    f[d] = mirrored ? 1.0 - (xi - cell) : xi - cell;
+    node[d] = mirrored ? index + 1 : index;
+    step[d] = mirrored ? -1 : 1;
+    order[d] = d;
+  }
+  for (std::size_t i = 1; i < Dim; ++i)  // largest fraction first; insertion sort, stable
+    for (std::size_t k = i; k > 0 && f[order[k]] > f[order[k - 1]]; --k)
+      std::swap(order[k], order[k - 1]);
+
+  Reach<Dim, Dim + 1> reach;
+  reach.count = Dim + 1;
+  for (std::size_t k = 0; k <= Dim; ++k) {
+    if (k > 0)
+      node[order[k - 1]] += step[order[k - 1]];
+    const double high = k == 0 ? 1.0 : f[order[k - 1]], low = k == Dim ? 0.0 : f[order[k]];
+    reach.node[k] = static_cast<std::uint32_t>(grid.index(node));
+    reach.weight[k] = high - low;
+    reach.gradient[k].setZero();
+    if (k > 0)
+      reach.gradient[k][static_cast<Eigen::Index>(order[k - 1])] += step[order[k - 1]] * grid.inverse_dx();
+    if (k < Dim)
+      reach.gradient[k][static_cast<Eigen::Index>(order[k])] -= step[order[k]] * grid.inverse_dx();
+  }
+  return reach;
+}
+
+/// For a shape known at run time only.
+template <int Dim>
+inline AnyReach<Dim> reach_of(Shape shape, const Vec<Dim>& point, const Grid<Dim>& grid)
+{
+  if (shape == Shape::bspline2)
+    return bspline_reach<Dim>(point, grid);
+  const Reach<Dim, Dim + 1> few = simplex_reach<Dim>(point, grid);
+  AnyReach<Dim> reach;
+  reach.count = few.count;
+  for (std::size_t k = 0; k <= Dim; ++k) {
+    reach.node[k] = few.node[k];
+    reach.weight[k] = few.weight[k];
+    reach.gradient[k] = few.gradient[k];
+  }
+  return reach;
+}
+
+}  // namespace geocontainer_mpm::mpm
