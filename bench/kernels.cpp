@@ -64,7 +64,7 @@ struct Block {
     window.end = grid.counts();
     grid.open(window, team);
   }
-  void to_grid() { mpm::body_to_grid(particles, strips, gravity, grid, team); }
+  void to_grid() { mpm::body_to_grid(mpm::Discretisation{}, particles, strips, {}, gravity, grid, team); }
   void count(benchmark::State& state) const
   {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles.size()));
@@ -94,9 +94,10 @@ void grid_to_particles(benchmark::State& state)
   Block<Dim> block(block_cells<Dim>, 1);
   block.open();
   block.to_grid();
-  mpm::GridUpdate<Dim>().apply_forces(block.grid, 1e-4, 0.0, block.team);
+  mpm::GridUpdate<Dim>().apply_forces(mpm::Discretisation{}, block.grid, 1e-4, 0.0, block.team);
   for (auto _ : state)
-    mpm::grid_to_particles(block.grid, 0.0, true, block.particles, 0, block.particles.size());
+    mpm::grid_to_particles(mpm::Discretisation{}, block.grid, 0.0, mpm::Gather::all, block.particles, 0,
+                           block.particles.size());
   block.count(state);
 }
 BENCHMARK_TEMPLATE(grid_to_particles, 2);
@@ -111,7 +112,7 @@ void apply_forces(benchmark::State& state)
     block.open();
     for (std::size_t i = 0; i < block.grid.size(); ++i)
       block.grid.nodes()[i].setOnes();
-    benchmark::DoNotOptimize(update.apply_forces(block.grid, 1e-4, 0.0, block.team));
+    benchmark::DoNotOptimize(update.apply_forces(mpm::Discretisation{}, block.grid, 1e-4, 0.0, block.team));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(block.grid.size()));
 }
@@ -180,14 +181,14 @@ void contact_solve(benchmark::State& state)
   mpm::Window<2> window;
   window.end = grid.counts();
   mpm::GridUpdate<2> update;
-  std::vector<contact::BoundaryImpulse> impulses;
+  contact::ContactImpulses impulses;
   const std::vector<contact::ContactPoints> touching{ { &sheet, false } };
   contact::ContactSolver solver;
   for (auto _ : state) {
     grid.open(window, alone);
-    mpm::sheet_to_grid<2>(sheet, { 0.0, -9.81 }, grid);
-    update.apply_forces(grid, 1e-3, 0.0, alone);
-    benchmark::DoNotOptimize(solver.solve(bodies, touching, 1e-3, 1e-3, grid, impulses));
+    mpm::sheet_to_grid<2>({}, sheet, mpm::Part::all, { 0.0, -9.81 }, grid);
+    update.apply_forces({}, grid, 1e-3, 0.0, alone);
+    benchmark::DoNotOptimize(solver.solve(bodies, touching, {}, 1e-3, 1e-3, grid, impulses));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points));
 }
@@ -197,7 +198,7 @@ BENCHMARK(contact_solve)->ArgName("points")->Arg(32)->Arg(128);
 struct Ring {
   mpm::ThreadTeam alone{ 1 };
   mpm::Grid<2> grid{ { -4.0, -4.0 }, { 4.0, 4.0 }, dx, Block<2>::faces() };
-  geotextile::Sheet sheet{ outline(), parameters() };
+  geotextile::Sheet sheet{ { outline(), true }, parameters() };
 
   static std::vector<Vec2> outline()
   {
@@ -209,7 +210,7 @@ struct Ring {
   static geotextile::SheetParameters parameters()
   {
     geotextile::SheetParameters p;
-    p.circumference = 18.3;
+    p.unstretched_length = 18.3;
     p.stiffness = 1.1e6;
     p.mass = 0.84;
     p.computational_mass = 20.0;
@@ -235,7 +236,7 @@ void frequency_bound(benchmark::State& state)
   window.end = ring.grid.counts();
   ring.grid.open(window, ring.alone);
   ring.sheet.update_forces();
-  mpm::sheet_to_grid<2>(ring.sheet.nodes(), { 0.0, -9.81 }, ring.grid);
+  mpm::sheet_to_grid<2>({}, ring.sheet.nodes(), mpm::Part::all, { 0.0, -9.81 }, ring.grid);
   for (auto _ : state)
     benchmark::DoNotOptimize(ring.sheet.frequency_bound(ring.grid));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ring.sheet.segments()));

@@ -16,8 +16,8 @@ BoundaryBody::BoundaryBody(std::string name, Surface surface, double friction, d
     reference_lower_ = reference_lower_.cwiseMin(vertex);
     reference_upper_ = reference_upper_.cwiseMax(vertex);
   }
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    const Vec2 along = line[k + 1] - line[k];
+  for (std::size_t k = 0; k < surface_.segments(); ++k) {
+    const Vec2 along = line[k + 1 < line.size() ? k + 1 : 0] - line[k];
     const int pieces = std::max(1, static_cast<int>(std::ceil(along.norm() / spacing - 1e-9)));
     for (int i = 0; i < pieces; ++i) {
       reference_.push_back(line[k] + (i + 0.5) / pieces * along);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geocontainer_mpm/mpm/bspline.h"
+#include "approach.h"
+#include "geocontainer_mpm/mpm/reach.h"
 
 namespace geocontainer_mpm::contact {
 namespace {
@@ -12,9 +13,6 @@ constexpr int mass_slot = mpm::Grid<2>::mass_slot;
 
 /// Points further from the surface than this are not looked at, cells: no step moves a point as far.
 constexpr double search_cells = 0.5;
-/// Penetration (curved walls, round-off) is worked off at this part a step, and no faster than `fastest_recovery`.
-constexpr double recovery_per_step = 0.02;
-constexpr double fastest_recovery = 0.05;  // m/s
 /// Gauss-Seidel ends when no point's velocity changes by more than this in a sweep, or after so many sweeps.
 constexpr double velocity_tolerance = 1e-6;  // m/s
 constexpr int most_sweeps = 30;
@@ -34,25 +32,36 @@ bool is_near(const BoundaryBody& body, const mpm::Grid<2>& grid)
   return false;
 }
 
+template <class Handle>
+Vec2 velocity_of(const Handle& handle, const mpm::Grid<2>& grid)
+{
+  mpm::Grid<2>::Node sum = mpm::Grid<2>::Node::Zero();
+  for (std::size_t k = 0; k < handle.count; ++k)
+    sum += handle.weight[k] * grid.nodes()[handle.node[k]];
+  return { sum[0], sum[1] };
+}
+
 }  // namespace
 
-void ContactSolver::add_contact(const Vec2& point, const Nearest& surface, double gap, double dt,
-                                const mpm::Grid<2>& grid, Contact& contact) const
+ContactSolver::Handle ContactSolver::make_handle(const Vec2& point, const mpm::Grid<2>& grid) const
 {
-  const mpm::Stencil<2> s = mpm::make_stencil<2>({ point[0], point[1] }, grid.origin(), grid.dx(), grid.inverse_dx());
-  contact.compliance = 0.0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const auto k = static_cast<std::size_t>(3 * i + j);
-      contact.node[k] = static_cast<std::uint32_t>(grid.index({ s.base[0] + i, s.base[1] + j }));
-      const double mass = grid.nodes()[contact.node[k]][mass_slot];
-      contact.weight[k] =
-          mass > 0.0 ? s.weight[0][static_cast<std::size_t>(i)] * s.weight[1][static_cast<std::size_t>(j)] : 0.0;
+  Handle handle;
+  const auto take = [&](const auto& reach) {
+    handle.count = static_cast<std::size_t>(reach.count);
+    handle.compliance = 0.0;
+    for (std::size_t k = 0; k < handle.count; ++k) {
+      handle.node[k] = reach.node[k];
+      const double mass = grid.nodes()[reach.node[k]][mass_slot];
+      handle.weight[k] = mass > 0.0 ? reach.weight[k] : 0.0;
       if (mass > 0.0)
-        contact.compliance += contact.weight[k] * contact.weight[k] / mass;
+        handle.compliance += handle.weight[k] * handle.weight[k] / mass;
     }
-  contact.normal = surface.normal;
-  contact.approach = gap >= 0.0 ? -gap / dt : std::min(-gap * recovery_per_step / dt, fastest_recovery);
+  };
+  if (shape_ == mpm::Shape::bspline2)
+    take(mpm::bspline_reach<2>(point, grid));
+  else
+    take(mpm::simplex_reach<2>(point, grid));
+  return handle;
 }
 
 void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const ContactPoints& points,
@@ -70,10 +79,13 @@ void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const
     if (!(gap < reach))
       continue;
     Contact contact;
-    add_contact(point, surface, gap, dt, grid, contact);
+    contact.handle = make_handle(point, grid);
+    contact.normal = surface.normal;
+    contact.approach = least_velocity(gap, dt);
     contact.body = index;
     contact.friction = held_ ? holding_friction : body.friction();
     contact.velocity = body.velocity_at(point);
+    contact.point = point;
     contact.memory = memory + particles.id[p];
     contact.pressed = memory_[contact.memory][0];
     contact.dragged = memory_[contact.memory][1];
@@ -81,42 +93,10 @@ void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const
   }
 }
 
-void ContactSolver::push(const Contact& contact, const Vec2& impulse, mpm::Grid<2>& grid) const
+void ContactSolver::collect_all(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
+                                const std::vector<Anchor>& anchors, double dt, const mpm::Grid<2>& grid,
+                                ContactSums& sums)
 {
-  const mpm::Grid<2>::Node both{ impulse[0], impulse[1], 0.0, 0.0 };
-  for (std::size_t k = 0; k < 9; ++k)
-    if (contact.weight[k] > 0.0) {
-      auto& node = grid.nodes()[contact.node[k]];
-      node += contact.weight[k] / node[mass_slot] * both;
-    }
-}
-
-/// Makes one contact right given all others. Returns the change of the point's velocity, m/s.
-double ContactSolver::relax(Contact& contact, mpm::Grid<2>& grid) const
-{
-  mpm::Grid<2>::Node sum = mpm::Grid<2>::Node::Zero();
-  for (std::size_t k = 0; k < 9; ++k)
-    sum += contact.weight[k] * grid.nodes()[contact.node[k]];
-  const Vec2 slip = Vec2(sum[0], sum[1]) - contact.velocity;
-  const Vec2 tangent = left_normal(contact.normal);
-  const double pressed =
-      std::max(0.0, contact.pressed + (contact.approach - slip.dot(contact.normal)) / contact.compliance);
-  const double limit = contact.friction * pressed;
-  const double dragged = std::clamp(contact.dragged - slip.dot(tangent) / contact.compliance, -limit, limit);
-  const Vec2 impulse = (pressed - contact.pressed) * contact.normal + (dragged - contact.dragged) * tangent;
-  contact.pressed = pressed;
-  contact.dragged = dragged;
-  if (impulse[0] == 0.0 && impulse[1] == 0.0)
-    return 0.0;
-  push(contact, impulse, grid);
-  return impulse.lpNorm<Eigen::Infinity>() * contact.compliance;
-}
-
-ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
-                                 double kick, double dt, mpm::Grid<2>& grid, std::vector<BoundaryImpulse>& boundary)
-{
-  ContactSums sums;
-  boundary.assign(bodies.size(), {});
   contacts_.clear();
   std::size_t pairs = 0;
   for (const ContactPoints& set : points)
@@ -132,35 +112,121 @@ ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const 
       memory += set.particles->size();
     }
   }
+  anchor_memory_.resize(anchors.size(), Vec2::Zero());
+  holds_.clear();
+  for (std::size_t a = 0; a < anchors.size(); ++a)
+    holds_.push_back(
+        { make_handle(anchors[a].point, grid), (anchors[a].target - anchors[a].point) / dt, anchor_memory_[a] });
+}
 
+void ContactSolver::remember_untouched(const mpm::Grid<2>& grid)
+{
   touched_.clear();
+  const auto add = [this](const Handle& handle) {
+    touched_.insert(touched_.end(), handle.node.begin(),
+                    handle.node.begin() + static_cast<std::ptrdiff_t>(handle.count));
+  };
   for (const Contact& contact : contacts_)
-    touched_.insert(touched_.end(), contact.node.begin(), contact.node.end());
+    add(contact.handle);
+  for (const Hold& hold : holds_)
+    add(hold.handle);
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   untouched_velocity_.clear();
   for (const std::uint32_t node : touched_)
     untouched_velocity_.emplace_back(grid.nodes()[node][0], grid.nodes()[node][1]);
+}
 
+void ContactSolver::push(const Handle& handle, const Vec2& impulse, mpm::Grid<2>& grid) const
+{
+  const mpm::Grid<2>::Node both{ impulse[0], impulse[1], 0.0, 0.0 };
+  for (std::size_t k = 0; k < handle.count; ++k)
+    if (handle.weight[k] > 0.0) {
+      auto& node = grid.nodes()[handle.node[k]];
+      node += handle.weight[k] / node[mass_slot] * both;
+    }
+}
+
+/// Makes one contact right given all others. Returns the change of the point's velocity, m/s.
+double ContactSolver::relax(Contact& contact, mpm::Grid<2>& grid) const
+{
+  const Vec2 slip = velocity_of(contact.handle, grid) - contact.velocity;
+  const Vec2 tangent = left_normal(contact.normal);
+  const double compliance = contact.handle.compliance;
+  const double pressed = std::max(0.0, contact.pressed + (contact.approach - slip.dot(contact.normal)) / compliance);
+  const double limit = contact.friction * pressed;
+  const double dragged = std::clamp(contact.dragged - slip.dot(tangent) / compliance, -limit, limit);
+  const Vec2 impulse = (pressed - contact.pressed) * contact.normal + (dragged - contact.dragged) * tangent;
+  contact.pressed = pressed;
+  contact.dragged = dragged;
+  if (impulse[0] == 0.0 && impulse[1] == 0.0)
+    return 0.0;
+  push(contact.handle, impulse, grid);
+  return impulse.lpNorm<Eigen::Infinity>() * compliance;
+}
+
+/// The same for an anchor.
+double ContactSolver::relax(Hold& hold, mpm::Grid<2>& grid) const
+{
+  const Vec2 missing = hold.velocity - velocity_of(hold.handle, grid);
+  const Vec2 impulse = missing / hold.handle.compliance;
+  hold.impulse += impulse;
+  push(hold.handle, impulse, grid);
+  return missing.lpNorm<Eigen::Infinity>();
+}
+
+void ContactSolver::iterate(mpm::Grid<2>& grid)
+{
   for (const Contact& c : contacts_)
-    push(c, c.pressed * c.normal + c.dragged * left_normal(c.normal), grid);
-  double change = contacts_.empty() ? 0.0 : 1.0;
+    push(c.handle, c.pressed * c.normal + c.dragged * left_normal(c.normal), grid);
+  for (const Hold& hold : holds_)
+    push(hold.handle, hold.impulse, grid);
+  const std::size_t count = contacts_.size(), all = count + holds_.size();
+  double change = all == 0 ? 0.0 : 1.0;
   for (int sweep = 0; sweep < most_sweeps && change > velocity_tolerance; ++sweep) {
     // There and back in turn, so that neither end of the surface is favoured.
     change = 0.0;
-    for (std::size_t k = 0; k < contacts_.size(); ++k)
-      change = std::max(change, relax(contacts_[sweep % 2 == 0 ? k : contacts_.size() - 1 - k], grid));
+    for (std::size_t i = 0; i < all; ++i) {
+      const std::size_t k = sweep % 2 == 0 ? i : all - 1 - i;
+      change = std::max(change, k < count ? relax(contacts_[k], grid) : relax(holds_[k - count], grid));
+    }
   }
+}
 
-  next_memory_.assign(pairs, { 0.0, 0.0 });
+void ContactSolver::report(const std::vector<BoundaryBody>& bodies, ContactImpulses& impulses, ContactSums& sums)
+{
+  next_memory_.assign(memory_.size(), { 0.0, 0.0 });
   for (const Contact& c : contacts_) {
     next_memory_[c.memory] = { c.pressed, c.dragged };
+    if (c.pressed == 0.0)
+      continue;
     const Vec2 impulse = c.pressed * c.normal + c.dragged * left_normal(c.normal);
-    boundary[c.body].impulse += impulse;
-    boundary[c.body].work += impulse.dot(c.velocity);
+    const Vec2 arm = bodies[c.body].arm_at(c.point);
+    BoundaryImpulse& boundary = impulses.boundary[c.body];
+    boundary.impulse += impulse;
+    boundary.moment += arm[0] * impulse[1] - arm[1] * impulse[0];
+    boundary.work += impulse.dot(c.velocity);
     sums.impulse += impulse;
   }
   memory_.swap(next_memory_);
+  for (std::size_t a = 0; a < holds_.size(); ++a) {
+    anchor_memory_[a] = holds_[a].impulse;
+    impulses.anchor[a] = { holds_[a].impulse, holds_[a].impulse.dot(holds_[a].velocity) };
+    sums.impulse += holds_[a].impulse;
+  }
+}
+
+ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
+                                 const std::vector<Anchor>& anchors, double kick, double dt, mpm::Grid<2>& grid,
+                                 ContactImpulses& impulses)
+{
+  ContactSums sums;
+  impulses.boundary.assign(bodies.size(), {});
+  impulses.anchor.assign(anchors.size(), {});
+  collect_all(bodies, points, anchors, dt, grid, sums);
+  remember_untouched(grid);
+  iterate(grid);
+  report(bodies, impulses, sums);
 
   // Energy node by node. Forces and contact act in the same instant, so that the impulse works on the mean of the
   // velocity before both and after both: a load that is only passed on to the wall dissipates nothing.
@@ -176,8 +242,10 @@ ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const 
     sums.kinetic_change += 0.5 * impulse.dot(after + untouched_velocity_[k]);
     sums.dissipated -= 0.5 * impulse.dot(after + before);
   }
-  for (const BoundaryImpulse& b : boundary)
+  for (const BoundaryImpulse& b : impulses.boundary)
     sums.dissipated += b.work;
+  for (const AnchorImpulse& a : impulses.anchor)
+    sums.dissipated += a.work;
   return sums;
 }
 

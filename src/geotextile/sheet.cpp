@@ -8,27 +8,38 @@
 namespace geocontainer_mpm::geotextile {
 namespace {
 
-double perimeter(const std::vector<Vec2>& outline)
+/// Corners of the line in turn, a closed one back to its first.
+std::vector<Vec2> joined(const SheetLayout& layout)
+{
+  std::vector<Vec2> line = layout.points;
+  if (layout.closed)
+    line.push_back(line.front());
+  return line;
+}
+
+double length_of(const std::vector<Vec2>& line)
 {
   double length = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i)
-    length += (outline[(i + 1) % outline.size()] - outline[i]).norm();
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    length += (line[i + 1] - line[i]).norm();
   return length;
 }
 
-/// `count` points evenly spaced along the closed outline, the first at its first vertex.
-std::vector<Vec2> resample(const std::vector<Vec2>& outline, std::size_t count)
+/// The first `count` of the points that divide the line into equal `steps`, from its first corner on.
+std::vector<Vec2> resample(const std::vector<Vec2>& line, std::size_t steps, std::size_t count)
 {
-  const double step = perimeter(outline) / static_cast<double>(count);
+  const double step = length_of(line) / static_cast<double>(steps);
   std::vector<Vec2> points;
   double passed = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 along = outline[(i + 1) % outline.size()] - outline[i];
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 along = line[i + 1] - line[i];
     const double length = along.norm();
     while (points.size() < count && static_cast<double>(points.size()) * step <= passed + length)
-      points.emplace_back(outline[i] + (static_cast<double>(points.size()) * step - passed) / length * along);
+      points.emplace_back(line[i] + (static_cast<double>(points.size()) * step - passed) / length * along);
     passed += length;
   }
+  if (points.size() < count)  // round-off at the very end
+    points.push_back(line.back());
   return points;
 }
 
@@ -38,32 +49,44 @@ constexpr double slack_strain = -0.01;
 
 }  // namespace
 
-Sheet::Sheet(const std::vector<Vec2>& outline, const SheetParameters& parameters) : parameters_(parameters)
+Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters) : parameters_(parameters)
 {
-  const double laid = perimeter(outline);
-  const auto count = static_cast<std::size_t>(std::max(3.0, std::round(laid / parameters.segment_length)));
-  const std::vector<Vec2> points = resample(outline, count);
-  const double rest = parameters.circumference / static_cast<double>(count);
-  nodes_.resize(count);
+  const std::vector<Vec2> line = joined(layout);
+  const double least = layout.closed ? 3.0 : 1.0;
+  const auto count = static_cast<std::size_t>(std::max(least, std::round(length_of(line) / parameters.segment_length)));
+  const std::vector<Vec2> points = resample(line, count, layout.closed ? count : count + 1);
+  const double rest = parameters.unstretched_length / static_cast<double>(count);
+  nodes_.resize(points.size());
   rest_length_.assign(count, rest);
   tension_.assign(count, 0.0);
   strain_.assign(count, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (mpm::Column& column : external_)
+    column.assign(points.size(), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool at_end = !layout.closed && (i == 0 || i + 1 == points.size());
+    const double share = at_end ? 0.5 * rest : rest;
     nodes_.position[0][i] = points[i][0];
     nodes_.position[1][i] = points[i][1];
-    nodes_.mass[i] = parameters.computational_mass * rest;
-    nodes_.weight_mass[i] = parameters.mass * rest;
+    nodes_.mass[i] = parameters.computational_mass * share;
+    nodes_.weight_mass[i] = parameters.mass * share;
   }
+  if (layout.closed)
+    outwards_ = twice_signed_area() >= 0.0 ? 1.0 : -1.0;
 }
 
-bool Sheet::update_forces()
+SheetSegment Sheet::segment(std::size_t i) const
+{
+  return { i, end_of(i), parameters_.stiffness / rest_length_[i], strain_[i] >= slack_strain };
+}
+
+bool Sheet::update_forces(const SheetLoad& load)
 {
   const std::size_t n = segments();
   for (mpm::Column& column : nodes_.force)
     std::fill(column.begin(), column.end(), 0.0);
-  bool taut = false;
+  bool acts = false;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = i + 1 < n ? i + 1 : 0;
+    const std::size_t j = end_of(i);
     const double along_y = nodes_.position[0][j] - nodes_.position[0][i];
     const double along_z = nodes_.position[1][j] - nodes_.position[1][i];
     const double length = std::sqrt(along_y * along_y + along_z * along_z);
@@ -72,14 +95,59 @@ bool Sheet::update_forces()
     tension_[i] = strain > 0.0 ? parameters_.stiffness * strain : 0.0;
     if (tension_[i] <= 0.0)
       continue;
-    taut = true;
+    acts = true;
     const double scale = tension_[i] / length;
     nodes_.force[0][i] += scale * along_y;
     nodes_.force[1][i] += scale * along_z;
     nodes_.force[0][j] -= scale * along_y;
     nodes_.force[1][j] -= scale * along_z;
   }
-  return taut;
+  for (mpm::Column& column : external_)
+    std::fill(column.begin(), column.end(), 0.0);
+  if (closed())
+    add_pressure(load);
+  else
+    for (std::size_t d = 0; d < 2; ++d) {
+      external_[d].front() += load.start_force[static_cast<Eigen::Index>(d)];
+      external_[d].back() += load.end_force[static_cast<Eigen::Index>(d)];
+    }
+  for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (external_[d][i] != 0.0) {
+        acts = true;
+        nodes_.force[d][i] += external_[d][i];
+      }
+  return acts;
+}
+
+void Sheet::add_pressure(const SheetLoad& load)
+{
+  if (load.pressure == 0.0 && load.gradient == 0.0)
+    return;
+  const mpm::Column &y = nodes_.position[0], &z = nodes_.position[1];
+  const double level = load.level ? *load.level : *std::max_element(z.begin(), z.end());
+  for (std::size_t i = 0; i < segments(); ++i) {
+    // Virtual work of p = (1 - s) pa + s pb on dx = (1 - s) da + s db over the segment, s from 0 to 1: what the ends
+    // get is the exact derivative of the integral of p over the area inside with respect to their positions.
+    const std::size_t j = end_of(i);
+    const double out_y = outwards_ * (z[j] - z[i]), out_z = outwards_ * (y[i] - y[j]);  // length times outer normal
+    const double pa = load.pressure + load.gradient * (level - z[i]);
+    const double pb = load.pressure + load.gradient * (level - z[j]);
+    const double share_a = (2.0 * pa + pb) / 6.0, share_b = (pa + 2.0 * pb) / 6.0;
+    external_[0][i] += share_a * out_y;
+    external_[1][i] += share_a * out_z;
+    external_[0][j] += share_b * out_y;
+    external_[1][j] += share_b * out_z;
+  }
+}
+
+double Sheet::external_power() const
+{
+  double power = 0.0;
+  for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      power += external_[d][i] * nodes_.velocity[d][i];
+  return power;
 }
 
 void Sheet::gauge_tension(std::vector<double>& result) const
@@ -92,9 +160,15 @@ void Sheet::gauge_tension(std::vector<double>& result) const
   result.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0.0;
-    for (std::size_t k = 0; k <= 2 * reach; ++k)
-      sum += tension_[(i + n - reach + k) % n];
-    result[i] = sum / static_cast<double>(2 * reach + 1);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k <= 2 * reach; ++k) {
+      const std::size_t j = i + n - reach + k;  // n too large
+      if (!closed() && (j < n || j >= 2 * n))
+        continue;
+      sum += tension_[j % n];
+      ++count;
+    }
+    result[i] = sum / static_cast<double>(count);
   }
 }
 
@@ -111,14 +185,27 @@ double Sheet::largest_strain() const
   return *std::max_element(tension_.begin(), tension_.end()) / parameters_.stiffness;
 }
 
-double Sheet::enclosed_area() const
+double Sheet::length() const
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < segments(); ++i)
+    sum += (node(end_of(i)) - node(i)).norm();
+  return sum;
+}
+
+double Sheet::twice_signed_area() const
 {
   double twice = 0.0;
   for (std::size_t i = 0; i < segments(); ++i) {
-    const Vec2 a = node(i), b = node((i + 1) % segments());
+    const Vec2 a = node(i), b = node(end_of(i));
     twice += a[0] * b[1] - a[1] * b[0];
   }
-  return 0.5 * std::abs(twice);
+  return twice;
+}
+
+double Sheet::enclosed_area() const
+{
+  return closed() ? 0.5 * std::abs(twice_signed_area()) : 0.0;
 }
 
 Sheet::Difference Sheet::difference(std::size_t segment, const mpm::Grid<2>& grid) const
@@ -128,7 +215,7 @@ Sheet::Difference Sheet::difference(std::size_t segment, const mpm::Grid<2>& gri
                                 grid.inverse_dx());
   };
   const mpm::Stencil<2> a = stencil(segment);
-  const mpm::Stencil<2> b = stencil(segment + 1 < segments() ? segment + 1 : 0);
+  const mpm::Stencil<2> b = stencil(end_of(segment));
   // The box around both stencils, cut at six nodes: ends three cells apart no longer share any.
   std::array<int, 2> base{}, size{};
   for (std::size_t d = 0; d < 2; ++d) {

@@ -60,18 +60,23 @@ inline Symmetric<3> add(const Symmetric<3>& a, double factor, const Symmetric<3>
            a.s01 + factor * b.s01, a.s02 + factor * b.s02, a.s12 + factor * b.s12 };
 }
 
-/// Stress of an elastic strain, Pa. In plane strain the strain's szz is zero and the stress's is not.
-inline Symmetric<2> elastic_stress(const Elasticity& elasticity, const Symmetric<2>& strain)
+/// mean * I + factor * b
+inline Symmetric<2> spherical_plus(double mean, double factor, const Symmetric<2>& b)
 {
-  const double mean = elasticity.lambda * trace(strain), two_g = 2.0 * elasticity.shear;
-  return { mean + two_g * strain.s00, mean + two_g * strain.s11, two_g * strain.s01, mean + two_g * strain.szz };
+  return { mean + factor * b.s00, mean + factor * b.s11, factor * b.s01, mean + factor * b.szz };
 }
 
-inline Symmetric<3> elastic_stress(const Elasticity& elasticity, const Symmetric<3>& strain)
+inline Symmetric<3> spherical_plus(double mean, double factor, const Symmetric<3>& b)
 {
-  const double mean = elasticity.lambda * trace(strain), two_g = 2.0 * elasticity.shear;
-  return { mean + two_g * strain.s00, mean + two_g * strain.s11, mean + two_g * strain.s22,
-           two_g * strain.s01,        two_g * strain.s02,        two_g * strain.s12 };
+  return { mean + factor * b.s00, mean + factor * b.s11, mean + factor * b.s22,
+           factor * b.s01,        factor * b.s02,        factor * b.s12 };
+}
+
+/// Stress of an elastic strain, Pa. In plane strain the strain's szz is zero and the stress's is not.
+template <int Dim>
+inline Symmetric<Dim> elastic_stress(const Elasticity& elasticity, const Symmetric<Dim>& strain)
+{
+  return spherical_plus(elasticity.lambda * trace(strain), 2.0 * elasticity.shear, strain);
 }
 
 /// Stored energy per volume, J/m^3.

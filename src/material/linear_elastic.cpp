@@ -1,5 +1,7 @@
 #include "linear_elastic.h"
 
+#include "bounds.h"
+
 namespace geocontainer_mpm::material {
 
 template <int Dim>
@@ -24,6 +26,12 @@ template <int Dim>
 void LinearElastic<Dim>::initialise(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const
 {
   initialise_energy(elasticity_, batch, begin, end);
+}
+
+template <int Dim>
+Stiffness LinearElastic<Dim>::stiffness(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const
+{
+  return { elasticity_.constrained + geometric_stiffness(batch, begin, end), damping_s_ * elasticity_.constrained };
 }
 
 template class LinearElastic<2>;

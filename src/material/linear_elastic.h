@@ -10,12 +10,17 @@ namespace geocontainer_mpm::material {
 template <int Dim>
 class LinearElastic final : public Law<Dim> {
 public:
-  explicit LinearElastic(const Parameters& parameters) : elasticity_(parameters) {}
+  explicit LinearElastic(const Parameters& parameters)
+      : elasticity_(parameters), damping_s_(parameters.stiffness_damping_s)
+  {
+  }
   void update(const Batch<Dim>& batch, double dt, std::size_t begin, std::size_t end) const override;
   void initialise(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const override;
+  Stiffness stiffness(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const override;
 
 private:
   Elasticity elasticity_;
+  double damping_s_;
 };
 
 }  // namespace geocontainer_mpm::material

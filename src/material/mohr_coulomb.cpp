@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounds.h"
 #include "spectral.h"
 
 namespace geocontainer_mpm::material {
@@ -223,6 +224,13 @@ template <int Dim>
 void MohrCoulomb<Dim>::initialise(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const
 {
   initialise_energy(elasticity_, batch, begin, end);
+}
+
+// Also of particles that are apart: they may meet again in the next step.
+template <int Dim>
+Stiffness MohrCoulomb<Dim>::stiffness(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const
+{
+  return { constrained_ + geometric_stiffness(batch, begin, end), damping_s_ * elasticity_.constrained };
 }
 
 template class MohrCoulomb<2>;

@@ -28,11 +28,16 @@ template <int Dim>
 class MohrCoulomb final : public Law<Dim> {
 public:
   explicit MohrCoulomb(const Parameters& parameters)
-      : elasticity_(parameters), surface_(parameters, elasticity_), no_energy_(0.5e-24 * parameters.young_modulus_pa)
+      : elasticity_(parameters)
+      , surface_(parameters, elasticity_)
+      , no_energy_(0.5e-24 * parameters.young_modulus_pa)
+      , constrained_(surface_.constrained_tangent())
+      , damping_s_(parameters.stiffness_damping_s)
   {
   }
   void update(const Batch<Dim>& batch, double dt, std::size_t begin, std::size_t end) const override;
   void initialise(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const override;
+  Stiffness stiffness(const Batch<Dim>& batch, std::size_t begin, std::size_t end) const override;
 
 private:
   struct Step;   // one particle's elastic step
@@ -46,6 +51,8 @@ private:
   PrincipalReturn surface_;
   double
       no_energy_;  ///< stored energy per volume of an elastic strain of 1e-12: an open particle with less has no stress
+  double constrained_;  ///< bound of the elastic and every plastic tangent, Pa
+  double damping_s_;
 };
 
 }  // namespace geocontainer_mpm::material

@@ -32,6 +32,9 @@ public:
   /// `trial` is sorted and beyond yield or cut-off.
   Returned map(const Principal& trial) const;
 
+  /// A bound of n . (C : (a n^T)) . a of the elastic and of every plastic tangent C over unit vectors a and n, Pa.
+  double constrained_tangent() const;
+
 private:
   struct Flow {
     double d1, d2, d3;  ///< stress taken off per unit multiplier, Pa

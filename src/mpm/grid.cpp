@@ -33,6 +33,27 @@ void Grid<Dim>::open(const Window<Dim>& window, ThreadTeam& team)
   });
 }
 
+template <int Dim>
+void Grid<Dim>::ensure_kept()
+{
+  if (kept_.empty())
+    kept_.assign(size(), Force::Zero());
+}
+
+template <int Dim>
+void Grid<Dim>::keep_velocities(ThreadTeam& team)
+{
+  ensure_kept();
+  team.for_each(blocks_of_rows(window_), [this](int block) {
+    visit_block(block, [this](int slowest) {
+      visit_rows(slowest, [this](std::size_t first, const std::array<int, Dim>&, int length) {
+        for (std::size_t i = first; i < first + static_cast<std::size_t>(length); ++i)
+          kept_[i].template head<Dim>() = nodes_[i].template head<Dim>();
+      });
+    });
+  });
+}
+
 template class Grid<2>;
 template class Grid<3>;
 

@@ -3,86 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "faces.h"
+
 namespace geocontainer_mpm::mpm {
 namespace {
 
-/// Nodes lighter than this part of nothing at all are round-off of stencil ends: they take no part.
-constexpr double massless = 1e-300;
-
-/// Calls `visit(node on the mirror side, its image inside)` for every node of the window beyond face `side` of
-/// direction `d`, and `on_face(node)` for every node on it.
-template <int Dim, class Beyond, class OnFace>
-void visit_face(const Grid<Dim>& grid, int d, int side, Beyond&& beyond, OnFace&& on_face)
-{
-  const Window<Dim>& window = grid.window();
-  const int face = side == 0 ? grid.low_face(d) : grid.high_face(d);
-  const int outwards = side == 0 ? -1 : 1;
-  std::array<int, Dim> node;
-  const auto visit_layer = [&](int layer, auto&& visit) {
-    if (layer < window.begin[d] || layer >= window.end[d])
-      return;
-    // All combinations of the other directions.
-    for (int a = 0; a < Dim; ++a)
-      node[a] = window.begin[a];
-    node[d] = layer;
-    for (;;) {
-      visit(grid.index(node));
-      int a = 0;
-      for (; a < Dim; ++a) {
-        if (a == d)
-          continue;
-        if (++node[a] < window.end[a])
-          break;
-        node[a] = window.begin[a];
-      }
-      if (a == Dim)
-        return;
-    }
-  };
-  visit_layer(face, on_face);
-  for (int depth = 1; depth <= Grid<Dim>::margin; ++depth) {
-    std::array<int, Dim> from{}, to{};
-    from[d] = face + outwards * depth;
-    to[d] = face - outwards * depth;
-    const auto shift = static_cast<std::ptrdiff_t>(grid.index(to)) - static_cast<std::ptrdiff_t>(grid.index(from));
-    visit_layer(from[d],
-                [&](std::size_t i) { beyond(i, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + shift)); });
-  }
-}
-
+/// Adds what was scattered beyond the constraining faces to its image inside. Returns whether there is such a face.
 template <int Dim>
-bool window_touches(const Grid<Dim>& grid, int d, int side)
+bool fold_faces(Grid<Dim>& grid)
 {
-  return side == 0 ? grid.window().begin[d] <= grid.low_face(d) : grid.window().end[d] > grid.high_face(d);
-}
-
-/// Sign with which component `c` is mirrored at a face normal to `d`.
-double mirror_sign(FaceCondition condition, int c, int d)
-{
-  return condition == FaceCondition::fixed || c == d ? -1.0 : 1.0;
-}
-
-/// Calls `visit(d, side, condition)` for every face that constrains and that the window reaches.
-template <int Dim, class Visitor>
-void visit_conditions(const Grid<Dim>& grid, Visitor&& visit)
-{
-  for (int d = 0; d < Dim; ++d)
-    for (int side = 0; side < 2; ++side) {
-      const FaceCondition condition = grid.faces()[static_cast<std::size_t>(2 * d + side)];
-      if (condition != FaceCondition::free && window_touches(grid, d, side))
-        visit(d, side, condition);
-    }
-}
-
-}  // namespace
-
-template <int Dim>
-MotionSums<Dim> GridUpdate<Dim>::apply_forces(Grid<Dim>& grid, double kick, double damping_per_s, ThreadTeam& team)
-{
-  constexpr int mass_slot = Grid<Dim>::mass_slot;
-  MotionSums<Dim> total;
+  bool touches = false;
   visit_conditions(grid, [&](int d, int side, FaceCondition condition) {
-    total.touches_faces = true;
+    touches = true;
     visit_face(
         grid, d, side,
         [&](std::size_t beyond, std::size_t inside) {
@@ -92,7 +24,7 @@ MotionSums<Dim> GridUpdate<Dim>::apply_forces(Grid<Dim>& grid, double kick, doub
             node[c] += mirror_sign(condition, c, d) * ghost[c];
             grid.forces()[inside][c] += mirror_sign(condition, c, d) * grid.forces()[beyond][c];
           }
-          node[mass_slot] += ghost[mass_slot];
+          node[Grid<Dim>::mass_slot] += ghost[Grid<Dim>::mass_slot];
           ghost.setZero();
         },
         [&](std::size_t on_face) {
@@ -104,9 +36,60 @@ MotionSums<Dim> GridUpdate<Dim>::apply_forces(Grid<Dim>& grid, double kick, doub
             }
         });
   });
+  return touches;
+}
 
-  const Window<Dim>& window = grid.window();
+template <int Dim>
+void add(const MotionSums<Dim>& part, MotionSums<Dim>& total)
+{
+  total.kinetic_before += part.kinetic_before;
+  total.kinetic_after += part.kinetic_after;
+  total.damped += part.damped;
+  total.momentum_before += part.momentum_before;
+  total.momentum_after += part.momentum_after;
+}
+
+/// Calls `visit(storage index)` for the nodes of the window, rows of one block by one thread.
+template <int Dim, class Visitor>
+void for_each_window_node(const Grid<Dim>& grid, ThreadTeam& team, Visitor&& visit)
+{
+  team.for_each(grid.blocks_of_rows(grid.window()), [&](int block) {
+    grid.visit_block(block, [&](int slowest) {
+      grid.visit_rows(slowest, [&](std::size_t first, const std::array<int, Dim>&, int length) {
+        for (std::size_t i = first; i < first + static_cast<std::size_t>(length); ++i)
+          visit(i);
+      });
+    });
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+MotionSums<Dim> GridUpdate<Dim>::apply_forces(const Discretisation& discretisation, Grid<Dim>& grid, double kick,
+                                              double damping_per_s, ThreadTeam& team)
+{
+  const bool touches = fold_faces(grid);
   const double keep = std::max(0.0, 1.0 - damping_per_s * kick);
+  const bool flip = discretisation.transfer == Transfer::flip;
+  if (flip)
+    grid.ensure_kept();
+  MotionSums<Dim> total = discretisation.mass == MassMatrix::consistent ? update_consistent(grid, kick, keep, team)
+                          : flip                                        ? update_lumped<true>(grid, kick, keep, team)
+                                                                        : update_lumped<false>(grid, kick, keep, team);
+  if (flip)
+    mirror_beyond_faces(
+        grid, [&](std::size_t i) -> auto& { return grid.kept()[i]; });
+  total.touches_faces = touches;
+  return total;
+}
+
+template <int Dim>
+template <bool keeps_old>
+MotionSums<Dim> GridUpdate<Dim>::update_lumped(Grid<Dim>& grid, double kick, double keep, ThreadTeam& team)
+{
+  constexpr int mass_slot = Grid<Dim>::mass_slot;
+  const Window<Dim>& window = grid.window();
   rows_.assign(static_cast<std::size_t>(std::max(0, window.end[0] - window.begin[0])), MotionSums<Dim>{});
   const auto update_row = [&](int slowest) {
     MotionSums<Dim> sums;
@@ -114,8 +97,10 @@ MotionSums<Dim> GridUpdate<Dim>::apply_forces(Grid<Dim>& grid, double kick, doub
       for (std::size_t i = first; i < first + static_cast<std::size_t>(length); ++i) {
         auto& node = grid.nodes()[i];
         const double mass = node[mass_slot];
-        if (!(mass > massless)) {
+        if (!(mass > Grid<Dim>::massless)) {
           node.setZero();
+          if constexpr (keeps_old)
+            grid.kept()[i].setZero();
           continue;
         }
         const double inverse_mass = 1.0 / mass;
@@ -127,6 +112,8 @@ MotionSums<Dim> GridUpdate<Dim>::apply_forces(Grid<Dim>& grid, double kick, doub
           sums.momentum_after[c] += keep * forced;
           before += momentum * momentum;
           after += forced * forced;
+          if constexpr (keeps_old)
+            grid.kept()[i][c] = momentum * inverse_mass;
           node[c] = keep * forced * inverse_mass;
         }
         sums.kinetic_before += 0.5 * inverse_mass * before;
@@ -137,14 +124,90 @@ MotionSums<Dim> GridUpdate<Dim>::apply_forces(Grid<Dim>& grid, double kick, doub
     rows_[static_cast<std::size_t>(slowest - window.begin[0])] = sums;
   };
   team.for_each(grid.blocks_of_rows(window), [&](int block) { grid.visit_block(block, update_row); });
-  for (const MotionSums<Dim>& row : rows_) {
-    total.kinetic_before += row.kinetic_before;
-    total.kinetic_after += row.kinetic_after;
-    total.damped += row.damped;
-    total.momentum_before += row.momentum_before;
-    total.momentum_after += row.momentum_after;
+  MotionSums<Dim> total;
+  for (const MotionSums<Dim>& row : rows_)
+    add(row, total);
+  return total;
+}
+
+template <int Dim>
+MotionSums<Dim> GridUpdate<Dim>::update_consistent(Grid<Dim>& grid, double kick, double keep, ThreadTeam& team)
+{
+  const std::vector<std::uint32_t>& active = mass_.active();
+  old_.resize(active.size());
+  change_.resize(active.size());
+  for (std::size_t n = 0; n < active.size(); ++n) {
+    old_[n] = grid.nodes()[active[n]].template head<Dim>();
+    change_[n] = kick * grid.forces()[active[n]].template head<Dim>();
+  }
+  momentum_ = old_;
+  impulse_ = change_;
+  MotionSums<Dim> total;
+  total.iterations = std::max(mass_.solve(old_, team), mass_.solve(change_, team));
+
+  for_each_window_node(grid, team, [&](std::size_t i) {
+    grid.nodes()[i].template head<Dim>().setZero();
+    grid.kept()[i].setZero();
+  });
+  for (std::size_t n = 0; n < active.size(); ++n) {
+    const auto forced = (momentum_[n] + impulse_[n]).eval();
+    const auto velocity = (old_[n] + change_[n]).eval();
+    grid.kept()[active[n]].template head<Dim>() = old_[n];
+    grid.nodes()[active[n]].template head<Dim>() = keep * velocity;
+    MotionSums<Dim> sums;
+    sums.kinetic_before = 0.5 * (momentum_[n] * old_[n]).sum();
+    sums.kinetic_after = 0.5 * (forced * velocity).sum() * keep * keep;
+    sums.damped = 0.5 * (forced * velocity).sum() * (1.0 - keep * keep);
+    sums.momentum_before = momentum_[n].matrix();
+    sums.momentum_after = keep * forced.matrix();
+    add(sums, total);
   }
   return total;
+}
+
+template <int Dim>
+void GridUpdate<Dim>::velocities(const Discretisation& discretisation, Grid<Dim>& grid, ThreadTeam& team)
+{
+  fold_faces(grid);
+  if (discretisation.mass == MassMatrix::consistent) {
+    const std::vector<std::uint32_t>& active = mass_.active();
+    old_.resize(active.size());
+    for (std::size_t n = 0; n < active.size(); ++n)
+      old_[n] = grid.nodes()[active[n]].template head<Dim>();
+    mass_.solve(old_, team);
+    for (std::size_t n = 0; n < active.size(); ++n)
+      grid.nodes()[active[n]].template head<Dim>() = old_[n];
+  } else {
+    for_each_window_node(grid, team, [&](std::size_t i) {
+      auto& node = grid.nodes()[i];
+      const double mass = node[Grid<Dim>::mass_slot];
+      if (mass > Grid<Dim>::massless)
+        node.template head<Dim>() *= 1.0 / mass;
+      else
+        node.setZero();
+    });
+  }
+  mirror_beyond_faces(
+      grid, [&](std::size_t i) -> auto& { return grid.nodes()[i]; });
+}
+
+template <int Dim>
+void GridUpdate<Dim>::momenta(const Discretisation& discretisation, Grid<Dim>& grid, ThreadTeam& team)
+{
+  if (discretisation.mass == MassMatrix::consistent) {
+    const std::vector<std::uint32_t>& active = mass_.active();
+    old_.resize(active.size());
+    for (std::size_t n = 0; n < active.size(); ++n)
+      old_[n] = grid.nodes()[active[n]].template head<Dim>();
+    mass_.multiply(old_, team);
+    for (std::size_t n = 0; n < active.size(); ++n)
+      grid.nodes()[active[n]].template head<Dim>() = old_[n];
+  } else {
+    // Nodes beyond faces have given their mass away: no momentum is left there.
+    for_each_window_node(grid, team, [&](std::size_t i) {
+      grid.nodes()[i].template head<Dim>() *= grid.nodes()[i][Grid<Dim>::mass_slot];
+    });
+  }
 }
 
 template <int Dim>

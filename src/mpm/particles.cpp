@@ -7,9 +7,18 @@ namespace geocontainer_mpm::mpm {
 template <int Dim>
 void Particles<Dim>::resize(std::size_t count)
 {
+  for (Column& column : deformation)
+    column.clear();
   for_each_column([count](Column& column) { column.assign(count, 0.0); });
   id.resize(count);
   std::iota(id.begin(), id.end(), 0U);
+}
+
+template <int Dim>
+void Particles<Dim>::use_deformation()
+{
+  for (std::size_t k = 0; k < deformation.size(); ++k)
+    deformation[k].assign(size(), k % (Dim + 1) == 0 ? 1.0 : 0.0);
 }
 
 template <int Dim>
@@ -35,6 +44,10 @@ material::Batch<Dim> Particles<Dim>::batch()
     view.velocity_gradient[k] = gradient[k].data();
   for (std::size_t k = 0; k < stress.size(); ++k)
     view.stress[k] = stress[k].data();
+  if (!deformation[0].empty())
+    for (std::size_t k = 0; k < deformation.size(); ++k)
+      view.deformation[k] = deformation[k].data();
+  view.initial_volume = initial_volume.data();
   view.volume = volume.data();
   view.separated_strain = separated_strain.data();
   view.elastic_energy = elastic_energy.data();

@@ -125,8 +125,8 @@ std::string table(const Json& s)
   row("soil volume change", quantity(s.at("soil_volume_change"), 100.0, 2, "%"));
   row("energy balance error", quantity(s.at("energy").at("relative_balance_error"), 100.0, 2, "%"));
   row("momentum error", fmt::format("{:.2e}", s.at("momentum_error").get<double>()));
-  row("particles, steps",
-      fmt::format("{}, {}", s.at("particles").get<std::uint64_t>(), s.at("steps").get<std::uint64_t>()));
+  row("particles, steps", fmt::format("{}, {}; {} retries", s.at("particles").get<std::uint64_t>(),
+                                      s.at("steps").get<std::uint64_t>(), s.at("retries").get<std::uint64_t>()));
   row("time step", fmt::format("{:.2e} to {:.2e} s", s.at("min_dt_s").get<double>(), s.at("max_dt_s").get<double>()));
   row("simulated, wall time", quantity(s.at("simulated_time_s"), 1.0, 2, "s, ") +
                                   quantity(s.at("wall_time_s"), 1.0, 2, "s, ") +

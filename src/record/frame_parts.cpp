@@ -51,18 +51,15 @@ std::vector<std::int32_t> part_of_row(const Parts& parts)
   return result;
 }
 
-std::vector<std::int32_t> segments_of(const Parts& parts, bool closed)
+void Segments::add(std::int64_t first_row, std::int64_t rows, bool closed)
 {
-  std::vector<std::int32_t> result;
-  for (std::size_t part = 0; part < parts.count.size(); ++part) {
-    const auto first = static_cast<std::int32_t>(parts.first[part]);
-    const auto count = static_cast<std::int32_t>(parts.count[part]);
-    for (std::int32_t i = 0; i + 1 < count; ++i)
-      result.insert(result.end(), { first + i, first + i + 1 });
-    if (closed)
-      result.insert(result.end(), { first + count - 1, first });
-  }
-  return result;
+  const std::int64_t pieces = closed ? rows : rows - 1;
+  for (std::int64_t i = 0; i < pieces; ++i)
+    pairs.insert(pairs.end(), { static_cast<std::int32_t>(first_row + i),
+                                static_cast<std::int32_t>(first_row + (i + 1 < rows ? i + 1 : 0)) });
+  first.push_back(total);
+  count.push_back(pieces);
+  total += pieces;
 }
 
 }  // namespace geocontainer_mpm::record

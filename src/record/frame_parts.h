@@ -39,7 +39,26 @@ std::vector<const scene::BoundaryFrame*> surfaces_of(const scene::Frame& frame);
 
 /// For each row the index of its part.
 std::vector<std::int32_t> part_of_row(const Parts& parts);
-/// Pairs of rows joined by a straight piece: around each part when `closed`, else along it.
-std::vector<std::int32_t> segments_of(const Parts& parts, bool closed);
+
+/// Straight pieces between rows of the shared arrays: along each part, and from its last row to its first where it is
+/// closed. Pieces [first, first + count) belong to the part of that index.
+struct Segments {
+  std::vector<std::int32_t> pairs;  ///< rows at both ends, piece by piece
+  std::vector<std::int64_t> first;
+  std::vector<std::int64_t> count;
+  std::int64_t total = 0;
+
+  void add(std::int64_t first_row, std::int64_t rows, bool closed);
+};
+
+/// Of sheets and boundaries.
+template <typename Part>
+Segments segments_of(const std::vector<const Part*>& all, const Parts& parts)
+{
+  Segments segments;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    segments.add(parts.first[i], parts.count[i], all[i]->closed);
+  return segments;
+}
 
 }  // namespace geocontainer_mpm::record

@@ -57,6 +57,11 @@ void write_numbers(hid_t object, const char* name, const std::vector<double>& va
   write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dataspace({ values.size() }), values.data());
 }
 
+void write_counts(hid_t object, const char* name, const std::vector<std::int64_t>& values)
+{
+  write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace({ values.size() }), values.data());
+}
+
 void write_texts(hid_t object, const char* name, const std::vector<std::string>& texts)
 {
   std::size_t width = 1;
@@ -73,9 +78,8 @@ void write_texts(hid_t object, const char* name, const std::vector<std::string>&
 void write_parts(hid_t group, const Parts& parts)
 {
   write_texts(group, "name", parts.name);
-  const auto extent = { static_cast<hsize_t>(parts.name.size()) };
-  write_attribute(group, "first", H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace(extent), parts.first.data());
-  write_attribute(group, "count", H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace(extent), parts.count.data());
+  write_counts(group, "first", parts.first);
+  write_counts(group, "count", parts.count);
 }
 
 Handle subgroup(hid_t parent, const char* name)
@@ -83,7 +87,7 @@ Handle subgroup(hid_t parent, const char* name)
   return { H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "cannot create a group" };
 }
 
-/// Writes one array with its unit. Only `time` is `compact`: one number is not worth a place of its own.
+/// Writes one array with its unit; `compact` for a few numbers that are not worth a place of their own.
 void write_array(hid_t parent, const char* name, hid_t type, hid_t memory_type, std::initializer_list<hsize_t> extent,
                  const void* data, const char* units, bool compact = false)
 {
@@ -163,12 +167,18 @@ void write_geotextile(hid_t frame_group, const scene::Frame& frame)
   const Parts parts = parts_of(sheets, &scene::GeotextileFrame::node);
   const Handle group = subgroup(frame_group, "geotextile");
   write_parts(group, parts);
+  const Segments segments = segments_of(sheets, parts);
   std::vector<double> gauge_length, strength, seam_strength;
+  std::vector<std::int64_t> closed;
   for (const scene::GeotextileFrame* sheet : sheets) {
+    closed.push_back(sheet->closed ? 1 : 0);
     gauge_length.push_back(sheet->gauge_length_m);
     strength.push_back(sheet->strength_n_per_m);
     seam_strength.push_back(sheet->seam_strength_n_per_m);
   }
+  write_counts(group, "closed", closed);
+  write_counts(group, "first_segment", segments.first);
+  write_counts(group, "segment_count", segments.count);
   write_numbers(group, "gauge_length_m", gauge_length);
   write_numbers(group, "strength_n_per_m", strength);
   write_numbers(group, "seam_strength_n_per_m", seam_strength);
@@ -176,7 +186,7 @@ void write_geotextile(hid_t frame_group, const scene::Frame& frame)
   write_vectors(group, "velocity", H5T_IEEE_F32LE, rows_of_three(sheets, &scene::GeotextileFrame::velocity), "m/s");
   write_scalars(group, "tension", joined(sheets, &scene::GeotextileFrame::tension), "N/m");
   write_scalars(group, "gauge_tension", joined(sheets, &scene::GeotextileFrame::gauge_tension), "N/m");
-  write_indices(group, "connectivity", segments_of(parts, true), 2);
+  write_indices(group, "connectivity", segments.pairs, 2);
   write_indices(group, "sheet", part_of_row(parts), 1);
 }
 
@@ -188,14 +198,37 @@ void write_boundary(hid_t frame_group, const char* name, const std::vector<const
   const Handle group = subgroup(frame_group, name);
   write_parts(group, parts);
   std::vector<double> angle, force;
+  std::vector<std::int64_t> closed;
   for (const scene::BoundaryFrame* boundary : boundaries) {
+    closed.push_back(boundary->closed ? 1 : 0);
     angle.push_back(boundary->angle_rad);
     force.insert(force.end(), { 0.0, boundary->force_n_per_m[0], boundary->force_n_per_m[1] });
   }
+  write_counts(group, "closed", closed);
   write_vectors(group, "position", H5T_IEEE_F64LE, rows_of_three(boundaries, &scene::BoundaryFrame::position), "m");
-  write_indices(group, "connectivity", segments_of(parts, false), 2);
+  write_indices(group, "connectivity", segments_of(boundaries, parts).pairs, 2);
   write_array(group, "angle", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, { angle.size() }, angle.data(), "rad");
   write_vectors(group, "force", H5T_IEEE_F64LE, force, "N/m");
+}
+
+/// One group for each probe, empty arrays where it took no sample since the frame before.
+void write_probes(hid_t frame_group, const std::vector<scene::ProbeFrame>& probes)
+{
+  constexpr std::size_t few = 64;
+  if (probes.empty())
+    return;
+  const Handle all = subgroup(frame_group, "probes");
+  for (const scene::ProbeFrame& probe : probes) {
+    const Handle group = subgroup(all, probe.name.c_str());
+    write_text_attribute(group, "kind", probe.kind);
+    const auto write = [&](const char* name, const std::vector<double>& values, const std::string& unit) {
+      write_array(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, { values.size() }, values.data(), unit.c_str(),
+                  values.size() <= few);
+    };
+    write("time", probe.time_s, "s");
+    for (const scene::ProbeFrame::Column& column : probe.columns)
+      write(column.name.c_str(), column.values, column.unit);
+  }
 }
 
 void write_energy(hid_t frame_group, const scene::EnergyFrame& energy)
@@ -263,7 +296,15 @@ std::size_t room_for(const scene::Frame& frame)
   for (const scene::BoundaryFrame& boundary : frame.boundary)
     add(boundary.position.size(), boundary.name);
   const std::size_t parts = frame.soil.size() + frame.geotextile.size() + frame.boundary.size();
-  return group_bytes + rows * row_bytes + parts * (part_bytes + names);
+  // Each column is a data set of its own, with a header and a link; each probe a group.
+  constexpr std::size_t column_bytes = 1024, probe_bytes = 4096;
+  std::size_t probes = 0;
+  for (const scene::ProbeFrame& probe : frame.probes) {
+    probes += probe_bytes + probe.name.size() + column_bytes + probe.time_s.size() * sizeof(double);
+    for (const scene::ProbeFrame::Column& column : probe.columns)
+      probes += column_bytes + column.name.size() + column.values.size() * sizeof(double);
+  }
+  return group_bytes + rows * row_bytes + parts * (part_bytes + names) + probes;
 }
 
 Handle write_unlinked_frame(hid_t file, const scene::Frame& frame)
@@ -280,6 +321,7 @@ Handle write_unlinked_frame(hid_t file, const scene::Frame& frame)
   write_geotextile(group, frame);
   write_boundary(group, "hull", hull_of(frame));
   write_boundary(group, "surface", surfaces_of(frame));
+  write_probes(group, frame.probes);
   write_energy(group, frame.energy);
   write_status(group, frame.status);
   return group;

@@ -124,7 +124,7 @@ private:
 void add_lines(EntryBuilder& builder, const char* group, const std::vector<const scene::BoundaryFrame*>& boundaries)
 {
   const Parts parts = parts_of(boundaries, &scene::BoundaryFrame::position);
-  const auto segments = static_cast<std::int64_t>(segments_of(parts, false).size() / 2);
+  const std::int64_t segments = segments_of(boundaries, parts).total;
   if (segments == 0)
     return;
   builder.begin_lines(group, segments);
@@ -148,12 +148,14 @@ std::string xdmf_entry(const scene::Frame& frame, const std::string& frame_path,
     builder.end();
   }
   if (const auto sheets = geotextile_of(frame); !sheets.empty()) {
-    const std::int64_t n = parts_of(sheets, &scene::GeotextileFrame::node).total;  // closed: as many segments as nodes
-    builder.begin_lines("geotextile", n);
+    const Parts parts = parts_of(sheets, &scene::GeotextileFrame::node);
+    const std::int64_t n = parts.total;
+    const std::int64_t segments = segments_of(sheets, parts).total;
+    builder.begin_lines("geotextile", segments);
     builder.geometry("node", n);
     builder.attribute("velocity", "Vector", "Node", n, 3);
-    builder.attribute("tension", "Scalar", "Cell", n, 1);
-    builder.attribute("gauge_tension", "Scalar", "Cell", n, 1);
+    builder.attribute("tension", "Scalar", "Cell", segments, 1);
+    builder.attribute("gauge_tension", "Scalar", "Cell", segments, 1);
     builder.end();
   }
   add_lines(builder, "hull", hull_of(frame));

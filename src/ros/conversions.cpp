@@ -151,8 +151,12 @@ geometry_msgs::PolygonStamped to_container_shape(const scene::GeotextileFrame& s
 {
   geometry_msgs::PolygonStamped shape;
   shape.header = header_of(view);
-  shape.polygon.points.reserve(sheet.node.size());
-  for (const Vec2& node : sheet.node) {
+  std::vector<Vec2> outline = sheet.node;
+  // A polygon closes itself: an open sheet goes there and back, so that its ends are not joined.
+  if (!sheet.closed && sheet.node.size() > 2)
+    outline.insert(outline.end(), sheet.node.rbegin() + 1, sheet.node.rend() - 1);
+  shape.polygon.points.reserve(outline.size());
+  for (const Vec2& node : outline) {
     const Eigen::Vector3f position = into_view(node, view).cast<float>();
     geometry_msgs::Point32 point;
     point.x = position.x();

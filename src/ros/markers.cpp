@@ -68,12 +68,13 @@ float shade(const Vec2& along)
 Marker geotextile_ribbon(const scene::GeotextileFrame& sheet, int id, const View& view)
 {
   Marker marker = make_marker("geotextile", id, Marker::TRIANGLE_LIST, view);
-  const std::size_t count = sheet.node.size();
-  marker.points.reserve(6 * count);
-  marker.colors.reserve(6 * count);
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t nodes = sheet.node.size();
+  const std::size_t segments = sheet.gauge_tension.size();  // of an open sheet one less than nodes
+  marker.points.reserve(6 * segments);
+  marker.colors.reserve(6 * segments);
+  for (std::size_t i = 0; i < segments; ++i) {
     const Vec2& from = sheet.node[i];
-    const Vec2& to = sheet.node[(i + 1) % count];
+    const Vec2& to = sheet.node[(i + 1) % nodes];
     const double utilisation = sheet.gauge_tension[i] / sheet.seam_strength_n_per_m;
     const std_msgs::ColorRGBA colour = to_colour(utilisation_colour(utilisation) * shade(to - from));
     const std::array<geometry_msgs::Point, 4> corners = { to_point(0.0, from), to_point(0.0, to),
@@ -91,10 +92,12 @@ Marker boundary_outline(const scene::BoundaryFrame& boundary, int id, const View
   Marker marker = make_marker("boundary", id, Marker::LINE_LIST, view);
   marker.scale.x = outline_width_m;
   marker.color = to_colour({ 0.35f, 0.38f, 0.45f });
+  const std::size_t count = boundary.position.size();
+  const std::size_t pieces = boundary.closed ? count : count - 1;
   for (const double x : { 0.0, -view.width_m })
-    for (std::size_t i = 0; i + 1 < boundary.position.size(); ++i) {
+    for (std::size_t i = 0; i < pieces; ++i) {
       marker.points.push_back(to_point(x, boundary.position[i]));
-      marker.points.push_back(to_point(x, boundary.position[i + 1]));
+      marker.points.push_back(to_point(x, boundary.position[(i + 1) % count]));
     }
   for (const std::size_t end : { std::size_t{ 0 }, boundary.position.size() - 1 }) {
     marker.points.push_back(to_point(0.0, boundary.position[end]));

@@ -1,6 +1,7 @@
 #include "geocontainer_mpm/scene/description.h"
 
 #include <cctype>
+#include <set>
 
 #include "description_grammar.h"
 #include "description_rules.h"
@@ -13,16 +14,6 @@ namespace {
 using grammar::joined;
 using grammar::Key;
 using grammar::Limits;
-
-/// Names become HDF5 groups, marker namespaces and parts of dotted keys.
-void check_name(const std::string& name, const std::string& path)
-{
-  bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front()));
-  for (const char c : name)
-    good = good && (std::isalnum(static_cast<unsigned char>(c)) || c == '_');
-  if (!good)
-    grammar::refuse(joined(path, name), "", "a name is a letter, then letters, digits and _");
-}
 
 /// Holds each key to its own limits.
 class Checker {
@@ -38,12 +29,16 @@ public:
   template <class T>
   void section(const Key& key, T& member)
   {
+    if (!key.applies)
+      return;
     Checker checker(joined(path_, key.name));
     grammar::describe(checker, member);
   }
   template <class T>
   void section(const Key& key, std::optional<T>& member)
   {
+    if (member && !key.applies)
+      grammar::refuse(joined(path_, key.name), "", grammar::does_not_apply(key));
     if (member)
       section(key, *member);
   }
@@ -52,7 +47,7 @@ public:
   {
     const std::string path = joined(path_, key.name);
     for (auto& [name, entry] : member) {
-      check_name(name, path);
+      check_name(name, joined(path, name), "");
       Checker checker(joined(path, name));
       grammar::describe(checker, entry);
     }
@@ -68,6 +63,26 @@ private:
 };
 
 }  // namespace
+
+Vec2 SceneDescription::gravity_at(double time_s) const
+{
+  if (gravity_table.empty())
+    return gravity_m_per_s2;
+  const std::array<double, 2> value = value_at(gravity_table, time_s);
+  return { value[0], value[1] };
+}
+
+std::vector<std::string> SceneDescription::velocity_fields() const
+{
+  std::set<std::string> fields;
+  const auto add = [&fields](const std::string& field) { fields.insert(field.empty() ? common_field : field); };
+  for (const auto& entry : bodies)
+    add(entry.second.velocity_field);
+  for (const auto& entry : geotextiles)
+    if (entry.second.encloses.empty())
+      add(entry.second.velocity_field);
+  return { fields.begin(), fields.end() };
+}
 
 void SceneDescription::validate() const
 {

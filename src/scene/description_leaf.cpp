@@ -21,13 +21,10 @@ bool convert(const YAML::Node& node, T& value)
   return node.IsScalar() && node.Tag() != "!" && YAML::convert<T>::decode(node, value);
 }
 
-std::string indexed(const std::string& key, std::size_t index)
+std::string counted(const std::string& things, const Limits& limits)
 {
-  return fmt::format("{}[{}]", key, index);
-}
-
-std::string counted(const char* things, const Limits& limits)
-{
+  if (limits.min_count == limits.max_count)
+    return fmt::format("a list of {} {}", limits.min_count, things);
   return limits.min_count > 0 ? fmt::format("a list of at least {} {}", limits.min_count, things)
                               : fmt::format("a list of {}", things);
 }
@@ -58,7 +55,7 @@ void parse_row(const YAML::Node& node, const std::string& key, OpeningRow& row)
 template <class List>
 void check_count(const List& list, const std::string& key, const Limits& limits)
 {
-  if (list.size() < limits.min_count)
+  if (list.size() < limits.min_count || list.size() > limits.max_count)
     refuse(key, fmt::format("{} given", list.size()), "must be " + type_text(list, limits));
 }
 
@@ -112,6 +109,11 @@ std::string text_of(const YAML::Node& node)
   return text;
 }
 
+std::string indexed(const std::string& key, std::size_t index)
+{
+  return fmt::format("{}[{}]", key, index);
+}
+
 std::string number_text(double value)
 {
   std::string text = fmt::format("{}", value);
@@ -155,6 +157,11 @@ std::string type_text(const std::vector<Vec2>&, const Limits& limits)
 std::string type_text(const std::vector<OpeningRow>&, const Limits& limits)
 {
   return counted("rows [time_s, port_rad, starboard_rad]", limits);
+}
+
+std::string type_text(const std::vector<std::string>&, const Limits& limits)
+{
+  return counted("texts", limits);
 }
 
 void parse(const YAML::Node& node, const std::string& key, const Limits& limits, double& value)
@@ -206,6 +213,15 @@ void parse(const YAML::Node& node, const std::string& key, const Limits& limits,
     parse_row(node[i], indexed(key, i), value[i]);
 }
 
+void parse(const YAML::Node& node, const std::string& key, const Limits& limits, std::vector<std::string>& value)
+{
+  if (!node.IsSequence())
+    refuse(key, text_of(node), "must be " + type_text(value, limits));
+  value.resize(node.size());
+  for (std::size_t i = 0; i < value.size(); ++i)
+    parse(node[i], indexed(key, i), {}, value[i]);
+}
+
 void check(const double& value, const std::string& key, const Limits& limits)
 {
   if (!limits.contains(value))
@@ -251,6 +267,11 @@ void check(const std::vector<OpeningRow>& value, const std::string& key, const L
   }
 }
 
+void check(const std::vector<std::string>& value, const std::string& key, const Limits& limits)
+{
+  check_count(value, key, limits);
+}
+
 std::string to_text(const double& value)
 {
   return number_text(value);
@@ -284,7 +305,46 @@ std::string to_text(const std::vector<Vec2>& value)
 
 std::string to_text(const std::vector<OpeningRow>& value)
 {
-  return list_text(value, row_text);
+  return list_text(value, [](const OpeningRow& row) { return row_text(row); });
+}
+
+std::string to_text(const std::vector<std::string>& value)
+{
+  return list_text(value, [](const std::string& item) { return to_text(item); });
+}
+
+std::string row_text(const double* numbers, std::size_t count)
+{
+  return list_text(std::vector<double>(numbers, numbers + count), number_text);
+}
+
+void parse_row(const YAML::Node& node, const std::string& key, const char* columns, double* numbers, std::size_t count)
+{
+  bool good = node.IsSequence() && node.size() == count;
+  for (std::size_t i = 0; good && i < count; ++i)
+    good = convert(node[i], numbers[i]);
+  if (!good)
+    refuse(key, text_of(node), fmt::format("must be [{}]: {} numbers", columns, count));
+}
+
+void check_row(const double* numbers, std::size_t count, const double* before, const std::string& key)
+{
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isfinite(numbers[i]))
+      refuse(key, row_text(numbers, count), fmt::format("must be {} finite numbers", count));
+  if (before && !(numbers[0] > *before))
+    refuse(key, row_text(numbers, count), "time_s must be later than in the row before");
+}
+
+std::string table_type_text(const Limits& limits)
+{
+  return counted(fmt::format("rows [{}]", limits.columns), limits);
+}
+
+void check_row_count(std::size_t rows, const std::string& key, const Limits& limits)
+{
+  if (rows < limits.min_count)
+    refuse(key, fmt::format("{} given", rows), "must be " + table_type_text(limits));
 }
 
 }  // namespace geocontainer_mpm::scene::grammar

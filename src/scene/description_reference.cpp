@@ -24,6 +24,9 @@ dotted.key=value` changes one key for one run, for instance `--set hull.friction
 bodies.sand.shape.hopper_fill.area_m2=9.5`. A value may be any YAML, so that `--set 'bodies.sand.shape={disc: {center_m:
 [0, 0], radius_m: 1}}'` replaces a whole section.
 
+A table over time is a list of rows, each a time and its values: `[[0, 0], [2, 1], [5, 1]]`. Times ascend. Between rows
+values are linear, before the first and after the last they stay.
+
 Lengths are metres, angles of the hull radians, angles of soils and boxes degrees, all SI. Points are `[y, z]` in the
 frame of the barge: hinge axis midships, y to port, z up. Tension in a sheet is force per width. A name in angle
 brackets is yours to choose: a letter, then letters, digits and `_`.
@@ -48,8 +51,8 @@ public:
   template <class T>
   void value(const Key& key, T& member, const Limits& limits = {})
   {
-    row(key, grammar::type_text(member, limits),
-        key.need == Need::required ? "*required*" : "`" + grammar::to_text(member) + "`");
+    const std::string fallback = grammar::given(member) ? "`" + grammar::to_text(member) + "`" : "absent";
+    row(key, grammar::type_text(member, limits), key.need == Need::required ? "*required*" : fallback);
   }
   template <class T>
   void section(const Key& key, T&)

@@ -110,6 +110,10 @@ std::optional<Eigen::AlignedBox2d> extent(const ShapeDescription& shape)
     const Vec2 radius = Vec2::Constant(shape.disc->radius_m);
     points = { shape.disc->center_m - radius, shape.disc->center_m + radius };
   }
+  if (shape.ring) {
+    const Vec2 radius = Vec2::Constant(shape.ring->outer_radius_m);
+    points = { shape.ring->center_m - radius, shape.ring->center_m + radius };
+  }
   if (points.empty())
     return std::nullopt;
   Eigen::AlignedBox2d box;
@@ -126,6 +130,8 @@ std::optional<double> outline_length(const ShapeDescription& shape)
     return line_length(shape.polygon->vertices_m, true);
   if (shape.disc)
     return 2.0 * pi * shape.disc->radius_m;
+  if (shape.ring)
+    return 2.0 * pi * shape.ring->outer_radius_m;
   return std::nullopt;
 }
 

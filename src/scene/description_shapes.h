@@ -25,6 +25,7 @@ std::vector<double> fillet_share(const std::vector<Vec2>& line, double radius_m)
 
 /// Unset for a hopper filling, which needs the hull.
 std::optional<Eigen::AlignedBox2d> extent(const ShapeDescription& shape);
+/// Length of the outer outline, m; unset for a hopper filling.
 std::optional<double> outline_length(const ShapeDescription& shape);
 
 }  // namespace geocontainer_mpm::scene

@@ -8,25 +8,26 @@ namespace {
 using grammar::Key;
 using grammar::Limits;
 
-/// Writes every key that applies, a line each, nested by indentation.
+/// Writes every key that applies and has a value, a line each, nested by indentation.
 class Writer {
 public:
   template <class T>
   void value(const Key& key, T& member, const Limits& = {})
   {
-    if (key.applies)
+    if (key.applies && (key.need == grammar::Need::required || grammar::given(member)))
       line(std::string(key.name) + ": " + grammar::to_text(member));
   }
   template <class T>
   void section(const Key& key, T& member)
   {
-    nested(key.name, member);
+    if (key.applies)
+      nested(key.name, member);
   }
   template <class T>
   void section(const Key& key, std::optional<T>& member)
   {
     if (member)
-      nested(key.name, *member);
+      section(key, *member);
   }
   template <class T>
   void map(const Key& key, std::map<std::string, T>& member)

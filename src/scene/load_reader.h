@@ -32,8 +32,7 @@ public:
   {
     const std::string path = grammar::joined(path_, key.name);
     const YAML::Node node = child(node_, key.name);
-    if (node.IsDefined() && !key.applies)
-      grammar::refuse(path, grammar::text_of(node), std::string("must not be given: it applies only to ") + key.when);
+    refuse_idle(key, node, path);
     if (present(node, path) && key.applies)
       grammar::parse(node, path, limits, member);
     else if (key.applies && key.need == grammar::Need::required)
@@ -44,6 +43,7 @@ public:
   {
     const std::string path = grammar::joined(path_, key.name);
     const YAML::Node node = child(node_, key.name);
+    refuse_idle(key, node, path);
     if (present(node, path))
       read_section(node, path, member);
     else if (key.need == grammar::Need::required)
@@ -78,6 +78,11 @@ public:
   }
 
 private:
+  static void refuse_idle(const grammar::Key& key, const YAML::Node& node, const std::string& path)
+  {
+    if (node.IsDefined() && !key.applies)
+      grammar::refuse(path, grammar::text_of(node), grammar::does_not_apply(key));
+  }
   static bool present(const YAML::Node& node, const std::string& path)
   {
     if (node.IsDefined() && node.IsNull())

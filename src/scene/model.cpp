@@ -1,3 +1,5 @@
+/// One step of the model.
+
 #include "geocontainer_mpm/scene/model.h"
 
 #include <algorithm>
@@ -5,12 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "geocontainer_mpm/mpm/transfer.h"
-
 namespace geocontainer_mpm::scene {
 namespace {
+
+using mpm::UpdateOrder;
 
 /// Adds the time since the last mark to a stage.
 class StageClock {
@@ -26,202 +26,244 @@ private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Particles are handed to threads in pieces of this size; results do not depend on it.
-constexpr std::size_t chunk = 512;
-
-template <class Work>
-void for_chunks(std::size_t count, mpm::ThreadTeam& team, Work&& work)
-{
-  team.for_each(static_cast<int>((count + chunk - 1) / chunk), [&](int c) {
-    const std::size_t begin = static_cast<std::size_t>(c) * chunk;
-    work(begin, std::min(count, begin + chunk));
-  });
-}
-
 }  // namespace
 
-void Model::survey()
+void Model::sort_particles()
 {
-  extent_lower_ = Vec2::Constant(std::numeric_limits<double>::infinity());
-  extent_upper_ = -extent_lower_;
-  double fastest_square = 0.0;
-  const auto look_at = [&](const std::string& name, const mpm::Particles<2>& particles, bool has_volume) {
-    Vec2 lower = extent_lower_, upper = extent_upper_;
-    double sound = 0.0;  // stays zero, unless something is not finite: then NaN
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double y = particles.position[0][p], z = particles.position[1][p];
-      const double vy = particles.velocity[0][p], vz = particles.velocity[1][p];
-      lower = lower.cwiseMin(Vec2(y, z));
-      upper = upper.cwiseMax(Vec2(y, z));
-      const double square = vy * vy + vz * vz;
-      fastest_square = std::max(fastest_square, square);
-      sound += 0.0 * (y + z + square);
-    }
-    if (has_volume)
-      for (std::size_t p = 0; p < particles.size(); ++p)
-        sound += particles.volume[p] > 0.0 ? 0.0 * particles.volume[p] : std::numeric_limits<double>::quiet_NaN();
-    extent_lower_ = lower;
-    extent_upper_ = upper;
-    const bool outside = (lower.array() < lower_.array()).any() || (upper.array() > upper_.array()).any();
-    if ((sound == 0.0 && !outside) || !health_.ok)
-      return;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Vec2 x(particles.position[0][p], particles.position[1][p]);
-      const Vec2 v(particles.velocity[0][p], particles.velocity[1][p]);
-      const char* cause = !x.allFinite() || !v.allFinite()             ? "is not finite any more"
-                          : has_volume && !(particles.volume[p] > 0.0) ? "has lost its volume"
-                          : (x.array() < lower_.array()).any() || (x.array() > upper_.array()).any() ? "left the grid"
-                                                                                                     : nullptr;
-      if (cause) {
-        health_.ok = false;
-        health_.failure.reason = fmt::format("particle {} of {} {}", particles.id[p], name, cause);
-        health_.failure.position_m = x.allFinite() ? x : Vec2::Zero();
-        return;
-      }
-    }
-  };
-  for (const Body& body : bodies_)
-    look_at(body.name, body.particles, true);
-  for (const EnclosingSheet& sheet : sheets_)
-    look_at(sheet.name, sheet.sheet.nodes(), false);
-  fastest_ = std::sqrt(fastest_square);
+  if (now_.sorted && now_.travel_since_sort <= 0.9 * fields_.front().grid.dx())
+    return;
+  for (Body& body : now_.bodies) {
+    sorter_.sort(fields_[body.field].grid, body.particles, body.strips);
+    for (std::size_t p = 0; p < body.row.size(); ++p)
+      body.row[body.particles.id[p]] = static_cast<std::uint32_t>(p);
+  }
+  now_.sorted = true;
+  now_.travel_since_sort = 0.0;
 }
 
-void Model::transfer_to_grid()
+void Model::open_grids()
+{
+  for (Field& field : fields_) {
+    mpm::Window<2> window;
+    for (int d = 0; d < 2; ++d) {
+      const auto base = [&](double x) {
+        return static_cast<int>(std::floor((x - field.grid.origin()[d]) * field.grid.inverse_dx() - 0.5));
+      };
+      window.begin[static_cast<std::size_t>(d)] = base(field.extent_lower[d]);
+      window.end[static_cast<std::size_t>(d)] = base(field.extent_upper[d]) + 3;
+    }
+    field.grid.open(window, *team_);
+    now_.skipped.grid_nodes += field.grid.size() - window.nodes();
+  }
+}
+
+Vec2 Model::gravity_at(double time_s) const
+{
+  if (gravity_table_.empty())
+    return constant_gravity_;
+  const auto [y, z] = value_at<2>(gravity_table_, time_s);
+  return { y, z };
+}
+
+void Model::transfer_to_grid(double time_s)
 {
   StageClock clock;
-  if (!sorted_ || travel_since_sort_ > 0.9 * grid_.dx()) {
-    for (Body& body : bodies_)
-      sorter_.sort(grid_, body.particles, body.strips);
-    sorted_ = true;
-    travel_since_sort_ = 0.0;
-  }
-  mpm::Window<2> window;
-  for (int d = 0; d < 2; ++d) {
-    const auto base = [&](double x) {
-      return static_cast<int>(std::floor((x - grid_.origin()[d]) * grid_.inverse_dx() - 0.5));
-    };
-    window.begin[static_cast<std::size_t>(d)] = base(extent_lower_[d]);
-    window.end[static_cast<std::size_t>(d)] = base(extent_upper_[d]) + 3;
-  }
-  grid_.open(window, *team_);
-  for (const Body& body : bodies_)
-    mpm::body_to_grid(body.particles, body.strips, gravity_, grid_, *team_);
-  clock.mark(stages_.p2g_s);
-  bool taut = false;
-  for (EnclosingSheet& sheet : sheets_) {
-    taut = sheet.sheet.update_forces() || taut;
-    mpm::sheet_to_grid(sheet.sheet.nodes(), gravity_, grid_);
-  }
-  if (!taut)
-    ++skipped_.membrane_passes;
-  skipped_.grid_nodes += grid_.size() - window.nodes();
-
-  double frequency_square = 0.0;
-  for (const Body& body : bodies_) {
-    double volume_per_mass = 0.0;
-    for (std::size_t p = 0; p < body.particles.size(); ++p)
-      volume_per_mass = std::max(volume_per_mass, body.particles.volume[p] / body.particles.mass[p]);
-    const double dt = mpm::stable_step<2>(body.constrained_modulus, body.shear_modulus, volume_per_mass, grid_.dx());
-    frequency_square = std::max(frequency_square, 4.0 / (dt * dt));
-  }
-  for (EnclosingSheet& sheet : sheets_)
-    frequency_square += sheet.sheet.frequency_bound(grid_);
-  stable_dt_ = std::min(max_step_, time_step_factor_ * 2.0 / std::sqrt(frequency_square));
-  if (fastest_ > 0.0)
-    stable_dt_ = std::min(stable_dt_, max_travel_ / fastest_);
+  now_.gravity = gravity_at(time_s);
+  sort_particles();
+  open_grids();
+  load_particles(time_s);
   clock.mark(stages_.membrane_s);
+  scatter(method_.update == UpdateOrder::usf ? mpm::Part::momentum : mpm::Part::all);
+  add_tractions(time_s);
+  assemble_mass();
+  load_power_before_ = load_power(time_s);
+  clock.mark(stages_.p2g_s);
+  bound_time_step();
+  clock.mark(stages_.bound_s);
   on_grid_ = true;
 }
 
-double Model::stable_dt()
+double Model::stable_dt(double time_s)
 {
   if (!on_grid_)
-    transfer_to_grid();
+    transfer_to_grid(time_s);
   return stable_dt_;
 }
 
-StepStatus Model::step(double dt, const std::vector<contact::RigidPose>& start,
-                       const std::vector<contact::RigidPose>& end, double damping_per_s)
+StepStatus Model::step(const StepInput& input)
 {
-  if (!health_.ok)
-    return health_;
-  stable_dt();
+  if (!now_.health.ok)
+    return now_.health;
+  stable_dt(input.time_s);
   StageClock clock;
 
   // Leapfrog: velocities live at mid-steps.
-  const double kick = 0.5 * (last_dt_ + dt);
-  const mpm::MotionSums<2> sums = update_.apply_forces(grid_, kick, damping_per_s, *team_);
-  if (kinetic_known_)
-    ledger_.transfer += kinetic_ - sums.kinetic_before;
-  else
-    ledger_.kinetic_at_start = sums.kinetic_before;
-  ledger_.damped += sums.damped;
+  const double kick = 0.5 * (now_.last_dt + input.dt_s), damping_before = damping_power();
+  if (method_.update == UpdateOrder::usf)
+    stress_first(input.dt_s);
+  apply_forces(input, kick);
   clock.mark(stages_.forces_s);
-
-  for (std::size_t b = 0; b < boundaries_.size(); ++b)
-    boundaries_[b].set_motion(start[b], end[b], dt);
-  points_.clear();
-  for (const Body& body : bodies_)
-    if (!body.enclosed)
-      points_.push_back({ &body.particles, true });
-  for (const EnclosingSheet& sheet : sheets_)
-    points_.push_back({ &sheet.sheet.nodes(), false });
-  const contact::ContactSums contact = contact_.solve(boundaries_, points_, kick, dt, grid_, impulses_);
-  for (const contact::BoundaryImpulse& impulse : impulses_)
-    ledger_.work_in += impulse.work;
-  ledger_.contact += contact.dissipated;
-  skipped_.contact_searches += contact.skipped;
-  const double taken = update_.apply_faces(grid_);
-  ledger_.faces += taken;
-  kinetic_ = sums.kinetic_after + contact.kinetic_change - taken;
-  kinetic_known_ = true;
-  if (!sums.touches_faces && damping_per_s == 0.0) {
-    const Vec2 pull = kick * weight_mass_ * gravity_;
-    ledger_.momentum_error += (sums.momentum_after - sums.momentum_before - pull).norm();
-    ledger_.momentum_exchanged += pull.norm() + contact.impulse.norm();
-  }
+  solve_contact(input, kick);
+  hold_nodes(input, kick);
   clock.mark(stages_.contact_s);
-
-  for (Body& body : bodies_)
-    for_chunks(body.particles.size(), *team_, [&](std::size_t first, std::size_t last) {
-      mpm::grid_to_particles(grid_, dt, true, body.particles, first, last);
-    });
-  for (EnclosingSheet& sheet : sheets_)
-    mpm::grid_to_particles(grid_, dt, false, sheet.sheet.nodes(), 0, sheet.sheet.nodes().size());
+  move_particles(input.dt_s);
   clock.mark(stages_.g2p_s);
-
-  for (Body& body : bodies_) {
-    const material::Batch<2> batch = body.particles.batch();
-    for_chunks(body.particles.size(), *team_,
-               [&](std::size_t first, std::size_t last) { body.law->update(batch, dt, first, last); });
-  }
+  if (method_.update != UpdateOrder::usf)
+    update_stress(input.dt_s);
   clock.mark(stages_.material_s);
 
-  last_dt_ = dt;
+  now_.last_dt = input.dt_s;
   on_grid_ = false;
+  ++now_.steps_since_bound;
+  // Loads act over the kick on the mean of the velocities before and after it.
+  now_.ledger.work_in += 0.5 * kick * (load_power_before_ + load_power(input.time_s));
+  now_.ledger.material_damping += 0.5 * kick * (damping_before + damping_power());
   survey();
-  travel_since_sort_ += fastest_ * dt;
+  now_.travel_since_sort += now_.fastest * input.dt_s;
+  now_.travel_since_bound += now_.fastest * input.dt_s;
   clock.mark(stages_.g2p_s);
-  return health_;
+  return now_.health;
+}
+
+void Model::apply_forces(const StepInput& input, double kick)
+{
+  double before = 0.0, after = 0.0;
+  Vec2 change = Vec2::Zero();
+  away_from_faces_ = true;
+  for (Field& field : fields_) {
+    const mpm::MotionSums<2> sums = field.update.apply_forces(method_, field.grid, kick, input.damping_per_s, *team_);
+    before += sums.kinetic_before;
+    after += sums.kinetic_after;
+    now_.ledger.damped += sums.damped;
+    change += sums.momentum_after - sums.momentum_before;
+    away_from_faces_ = away_from_faces_ && !sums.touches_faces;
+  }
+  if (now_.kinetic_known)
+    now_.ledger.transfer += now_.kinetic - before;
+  else
+    now_.ledger.kinetic_at_start = before;
+  now_.kinetic = after;
+  now_.kinetic_known = true;
+  if (away_from_faces_ && input.damping_per_s == 0.0) {
+    const Vec2 pull = kick * (weight_mass_ * now_.gravity + load_sum_);
+    now_.ledger.momentum_error += (change - pull).norm();
+    now_.ledger.momentum_exchanged += pull.norm();
+  }
+}
+
+/// What may touch in each field: a body in a sheet touches rigid surfaces by its sheet.
+void Model::collect_points()
+{
+  for (Field& field : fields_) {
+    field.points.clear();
+    field.all_points.clear();
+  }
+  for (const Body& body : now_.bodies) {
+    fields_[body.field].all_points.push_back({ &body.particles, true });
+    if (!body.enclosed)
+      fields_[body.field].points.push_back({ &body.particles, true });
+  }
+  for (const ModelSheet& sheet : now_.sheets) {
+    fields_[sheet.field].all_points.push_back({ &sheet.sheet.nodes(), false });
+    fields_[sheet.field].points.push_back({ &sheet.sheet.nodes(), false });
+  }
+}
+
+void Model::solve_contact(const StepInput& input, double kick)
+{
+  for (std::size_t b = 0; b < boundaries_.size(); ++b)
+    boundaries_[b].set_motion(input.start[b], input.end[b], input.dt_s);
+  collect_points();
+
+  const auto take = [&](const contact::ContactSums& sums) {
+    now_.kinetic += sums.kinetic_change;
+    now_.ledger.contact += sums.dissipated;
+    now_.ledger.momentum_exchanged += sums.impulse.norm();
+    now_.skipped.contact_searches += sums.skipped;
+  };
+  for (FieldPair& pair : pairs_)
+    take(pair.contact.solve({ &fields_[pair.a].grid, &fields_[pair.a].all_points },
+                            { &fields_[pair.b].grid, &fields_[pair.b].all_points }, pair.friction, kick, input.dt_s));
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    Field& field = fields_[f];
+    collect_anchors(input, f);
+    take(now_.contact[f].solve(boundaries_, field.points, field.anchors, kick, input.dt_s, field.grid, field.impulses));
+    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+      const contact::BoundaryImpulse& done = field.impulses.boundary[b];
+      BoundaryTotal& total = now_.boundary_totals[b];
+      total.impulse += done.impulse;
+      total.moment += done.moment;
+      total.work += done.work;
+      now_.ledger.work_in += done.work;
+    }
+    for (const contact::AnchorImpulse& anchor : field.impulses.anchor)
+      now_.ledger.work_in += anchor.work;
+  }
+}
+
+/// Where held ends of sheets are to be at the end of the step.
+void Model::collect_anchors(const StepInput& input, std::size_t field)
+{
+  std::vector<contact::Anchor>& anchors = fields_[field].anchors;
+  anchors.clear();
+  for (const HeldEnd& held : held_ends_) {
+    const ModelSheet& sheet = now_.sheets[held.sheet];
+    if (sheet.field != field)
+      continue;
+    Vec2 target = held.place;
+    if (!held.motion.empty()) {
+      const auto [y, z] = value_at<2>(held.motion, input.time_s + input.dt_s);
+      target += Vec2(y, z);
+    }
+    anchors.push_back({ sheet.sheet.node(held.node), target });
+  }
+}
+
+/// Supports, then the faces of the grid, which have the last word.
+void Model::hold_nodes(const StepInput& input, double kick)
+{
+  for (Field& field : fields_) {
+    for (const SupportDescription& support : supports_) {
+      const SupportSums sums = apply_support(support, input.time_s + 0.5 * input.dt_s, kick, field.grid);
+      now_.kinetic += sums.kinetic_change;
+      now_.ledger.contact += sums.dissipated;
+      now_.ledger.work_in += sums.work;
+    }
+    const double taken = field.update.apply_faces(field.grid);
+    now_.ledger.faces += taken;
+    now_.kinetic -= taken;
+  }
+}
+
+void Model::restore(const ModelState& state)
+{
+  now_ = state;
+  on_grid_ = false;
+  survey();  // the fields' extents, from which the grids' windows follow
+}
+
+void Model::hold(bool held)
+{
+  for (contact::ContactSolver& contact : now_.contact)
+    contact.hold(held);
 }
 
 void Model::stop_motion()
 {
   const auto still = [](mpm::Particles<2>& particles) {
-    for (auto* columns : { particles.velocity.data(), particles.velocity.data() + 1 })
-      std::fill(columns->begin(), columns->end(), 0.0);
+    for (mpm::Column& column : particles.velocity)
+      std::fill(column.begin(), column.end(), 0.0);
     for (mpm::Column& column : particles.affine)
       std::fill(column.begin(), column.end(), 0.0);
   };
-  for (Body& body : bodies_)
+  for (Body& body : now_.bodies)
     still(body.particles);
-  for (EnclosingSheet& sheet : sheets_)
+  for (ModelSheet& sheet : now_.sheets)
     still(sheet.sheet.nodes());
-  ledger_.transfer += kinetic_;
-  kinetic_ = 0.0;
-  last_dt_ = 0.0;
-  fastest_ = 0.0;
+  now_.ledger.transfer += now_.kinetic;
+  now_.kinetic = 0.0;
+  now_.last_dt = 0.0;
+  now_.fastest = 0.0;
   on_grid_ = false;
 }
 

@@ -24,52 +24,66 @@ double column_sum(const mpm::Column& column)
 
 void Model::open_ledger()
 {
-  ledger_ = Ledger{};
-  ledger_.plastic_at_start = plastic_work();
-  ledger_.elastic_at_start = elastic_energy();
-  ledger_.potential_at_start = potential_energy();
-  ledger_.kinetic_at_start = kinetic_;
-  skipped_ = SkippedCounts{};
+  now_.ledger = Ledger{};
+  now_.ledger.plastic_at_start = plastic_work();
+  now_.ledger.elastic_at_start = elastic_energy();
+  now_.ledger.potential_at_start = potential_energy();
+  now_.ledger.kinetic_at_start = now_.kinetic;
+  now_.skipped = SkippedCounts{};
   stages_ = StageTimes{};
 }
 
 double Model::rms_velocity() const
 {
-  return std::sqrt(2.0 * std::max(0.0, kinetic_) / inertia_);
+  return std::sqrt(2.0 * std::max(0.0, now_.kinetic) / inertia_);
 }
 
 Vec2 Model::centroid() const
 {
   Vec2 moment = Vec2::Zero();
-  for (const Body& body : bodies_)
-    for (std::size_t p = 0; p < body.particles.size(); ++p)
-      moment += body.particles.mass[p] * Vec2(body.particles.position[0][p], body.particles.position[1][p]);
-  return moment / soil_mass();
+  double mass = 0.0;
+  const auto add = [&](const mpm::Particles<2>& particles) {
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      moment += particles.mass[p] * Vec2(particles.position[0][p], particles.position[1][p]);
+    mass += column_sum(particles.mass);
+  };
+  for (const Body& body : now_.bodies)
+    add(body.particles);
+  if (now_.bodies.empty())
+    for (const ModelSheet& sheet : now_.sheets)
+      add(sheet.sheet.nodes());
+  return moment / mass;
 }
 
 double Model::soil_mass() const
 {
   double mass = 0.0;
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     mass += column_sum(body.particles.mass);
   return mass;
 }
 
-double Model::fundamental_frequency() const
+double Model::fundamental_frequency()
 {
   // A quarter wave over the height of all that is there, at the slowest body's wave speed.
-  double speed = std::numeric_limits<double>::infinity();
-  for (const Body& body : bodies_)
-    speed = std::min(speed, std::sqrt(body.constrained_modulus * body.particles.volume[0] / body.particles.mass[0]));
-  return 0.5 * pi * speed / std::max(grid_.dx(), extent_upper_[1] - extent_lower_[1]);
+  double speed = std::numeric_limits<double>::infinity(), low = speed, high = -speed;
+  for (Body& body : now_.bodies) {
+    mpm::Particles<2>& particles = body.particles;
+    const double modulus = body.law->stiffness(particles.batch(), 0, particles.size()).constrained_modulus;
+    speed = std::min(speed, std::sqrt(modulus * particles.volume[0] / particles.mass[0]));
+    const auto [lowest, highest] = std::minmax_element(particles.position[1].begin(), particles.position[1].end());
+    low = std::min(low, *lowest);
+    high = std::max(high, *highest);
+  }
+  return 0.5 * pi * speed / std::max(fields_.front().grid.dx(), high - low);
 }
 
 double Model::elastic_energy() const
 {
   double energy = 0.0;
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     energy += column_sum(body.particles.elastic_energy);
-  for (const EnclosingSheet& sheet : sheets_)
+  for (const ModelSheet& sheet : now_.sheets)
     energy += sheet.sheet.elastic_energy();
   return energy;
 }
@@ -79,36 +93,53 @@ double Model::potential_energy() const
   double energy = 0.0;
   const auto add = [&](const mpm::Particles<2>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p)
-      energy -=
-          particles.weight_mass[p] * (gravity_[0] * particles.position[0][p] + gravity_[1] * particles.position[1][p]);
+      energy -= particles.weight_mass[p] *
+                (constant_gravity_[0] * particles.position[0][p] + constant_gravity_[1] * particles.position[1][p]);
   };
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     add(body.particles);
-  for (const EnclosingSheet& sheet : sheets_)
+  for (const ModelSheet& sheet : now_.sheets)
     add(sheet.sheet.nodes());
   return energy;
 }
 
 /// Work of gravity per time at the velocities of the last step, J/(m s).
-double Model::gravity_power() const
+double Model::gravity_power(const Vec2& gravity) const
 {
   double power = 0.0;
   const auto add = [&](const mpm::Particles<2>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p)
       power +=
-          particles.weight_mass[p] * (gravity_[0] * particles.velocity[0][p] + gravity_[1] * particles.velocity[1][p]);
+          particles.weight_mass[p] * (gravity[0] * particles.velocity[0][p] + gravity[1] * particles.velocity[1][p]);
   };
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     add(body.particles);
-  for (const EnclosingSheet& sheet : sheets_)
+  for (const ModelSheet& sheet : now_.sheets)
     add(sheet.sheet.nodes());
+  return power;
+}
+
+/// What stiffness-proportional damping takes at the velocity gradients of the last step, W/m.
+double Model::damping_power() const
+{
+  double power = 0.0;
+  for (const Body& body : now_.bodies) {
+    if (body.damping.lambda == 0.0 && body.damping.shear == 0.0)
+      continue;
+    const auto& l = body.particles.gradient;
+    for (std::size_t p = 0; p < body.particles.size(); ++p) {
+      const double yy = l[0][p], zz = l[3][p], yz = 0.5 * (l[1][p] + l[2][p]);
+      power += body.particles.volume[p] * (body.damping.lambda * (yy + zz) * (yy + zz) +
+                                           2.0 * body.damping.shear * (yy * yy + zz * zz + 2.0 * yz * yz));
+    }
+  }
   return power;
 }
 
 double Model::plastic_work() const
 {
   double work = 0.0;
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     work += column_sum(body.particles.dissipated);
   return work;
 }
@@ -116,28 +147,30 @@ double Model::plastic_work() const
 EnergyFrame Model::energy() const
 {
   EnergyFrame e;
-  e.kinetic = kinetic_known_ ? kinetic_ : ledger_.kinetic_at_start;
+  e.kinetic = now_.kinetic_known ? now_.kinetic : now_.ledger.kinetic_at_start;
   e.elastic = elastic_energy();
   e.potential = potential_energy();
-  e.dissipated_plastic = plastic_work() - ledger_.plastic_at_start;
-  e.dissipated_contact = ledger_.contact + ledger_.faces;
-  e.dissipated_transfer = ledger_.transfer;
-  e.dissipated = e.dissipated_plastic + e.dissipated_contact + e.dissipated_transfer + ledger_.damped;
-  e.work_in = ledger_.work_in;
+  e.dissipated_plastic = plastic_work() - now_.ledger.plastic_at_start;
+  e.dissipated_contact = now_.ledger.contact + now_.ledger.faces;
+  e.dissipated_transfer = now_.ledger.transfer;
+  e.dissipated = e.dissipated_plastic + e.dissipated_contact + e.dissipated_transfer + now_.ledger.damped +
+                 now_.ledger.material_damping;
+  e.work_in = now_.ledger.work_in;
   // Velocities live at mid-steps: the balance is struck there, gravity's work of the last half step taken back.
-  const double kinetic = e.kinetic - ledger_.kinetic_at_start;
-  const double elastic = e.elastic - ledger_.elastic_at_start;
-  const double potential = e.potential + 0.5 * last_dt_ * gravity_power() - ledger_.potential_at_start;
+  const double kinetic = e.kinetic - now_.ledger.kinetic_at_start;
+  const double elastic = e.elastic - now_.ledger.elastic_at_start;
+  const double potential =
+      e.potential + 0.5 * now_.last_dt * gravity_power(constant_gravity_) - now_.ledger.potential_at_start;
   const double exchanged = 0.5 * (std::abs(kinetic) + std::abs(elastic) + std::abs(potential) + std::abs(e.dissipated) +
                                   std::abs(e.work_in));
-  const double error = std::abs(kinetic + elastic + potential + e.dissipated - e.work_in);
-  e.relative_balance_error = exchanged > 0.0 ? error / exchanged : 0.0;
+  e.unbalanced = kinetic + elastic + potential + e.dissipated - e.work_in;
+  e.relative_balance_error = exchanged > 0.0 ? std::abs(e.unbalanced) / exchanged : 0.0;
   return e;
 }
 
 double Model::momentum_error() const
 {
-  return ledger_.momentum_exchanged > 0.0 ? ledger_.momentum_error / ledger_.momentum_exchanged : 0.0;
+  return now_.ledger.momentum_exchanged > 0.0 ? now_.ledger.momentum_error / now_.ledger.momentum_exchanged : 0.0;
 }
 
 std::uint64_t Model::digest() const
@@ -161,12 +194,13 @@ std::uint64_t Model::digest() const
     add_all(particles.velocity);
     add_all(particles.affine);
     add_all(particles.stress);
+    add_all(particles.deformation);
     add(particles.volume);
     add(particles.separated_strain);
   };
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     add_particles(body.particles);
-  for (const EnclosingSheet& sheet : sheets_) {
+  for (const ModelSheet& sheet : now_.sheets) {
     add_particles(sheet.sheet.nodes());
     add(sheet.sheet.tension());
   }

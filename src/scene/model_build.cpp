@@ -1,3 +1,5 @@
+/// From a description to bodies, sheets, boundaries and loads.
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,32 +38,111 @@ void set_k0_stress(const BodyDescription& description, double density, const std
   }
 }
 
+/// A weakly compressible fluid at rest, d p / d depth = rho g with rho = rho0 (1 + p / K): more mass in the same
+/// volume, so that the law, which knows the volume at zero pressure, finds the pressure.
+void set_hydrostatic(const material::Parameters& material, const std::vector<Vec2>& shape, double gravity_z,
+                     mpm::Particles<2>& particles)
+{
+  const double rho = material.density_kg_per_m3, bulk = material.bulk_modulus_pa;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double depth = std::max(0.0, top_at(shape, particles.position[0][p]) - particles.position[1][p]);
+    const double compression = std::exp(-rho * gravity_z * depth / bulk);  // rho / rho0
+    particles.initial_volume[p] = compression * particles.volume[p];
+    particles.mass[p] = particles.weight_mass[p] = rho * particles.initial_volume[p];
+  }
+}
+
+void set_velocity(const Vec2& velocity, double spin, const std::optional<VelocityWave>& wave,
+                  mpm::Particles<2>& particles)
+{
+  Vec2 middle = Vec2::Zero();
+  double mass = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    middle += particles.mass[p] * Vec2(particles.position[0][p], particles.position[1][p]);
+    mass += particles.mass[p];
+  }
+  middle /= mass;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec2 x(particles.position[0][p], particles.position[1][p]);
+    Vec2 v = velocity + spin * Vec2(middle[1] - x[1], x[0] - middle[0]);
+    if (wave)
+      v += wave->amplitude_m_per_s * std::sin(wave->wave_number_rad_per_m.dot(x) + wave->phase_rad);
+    particles.velocity[0][p] = v[0];
+    particles.velocity[1][p] = v[1];
+    if (!wave && spin != 0.0) {
+      particles.affine[1][p] = -spin;
+      particles.affine[2][p] = spin;
+    }
+  }
+}
+
+void place(const Sampling& sampling, double density, mpm::Particles<2>& particles)
+{
+  particles.resize(sampling.points.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    for (std::size_t d = 0; d < 2; ++d)
+      particles.position[d][p] = sampling.points[p][static_cast<Eigen::Index>(d)];
+    particles.volume[p] = particles.initial_volume[p] = sampling.volumes[p];
+    particles.mass[p] = particles.weight_mass[p] = density * sampling.volumes[p];
+  }
+}
+
+void start_on_solution(const Manufactured& solution, mpm::Particles<2>& particles)
+{
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec2 velocity = solution.velocity(Vec2(particles.position[0][p], particles.position[1][p]), 0.0);
+    particles.velocity[0][p] = velocity[0];
+    particles.velocity[1][p] = velocity[1];
+  }
+}
+
 }  // namespace
 
 Model::Model(const SceneDescription& scene, int threads)
     : team_(make_team(threads))
-    , gravity_(scene.gravity_m_per_s2)
+    , method_(scene.numerics.method)
+    , constant_gravity_(scene.gravity_table.empty() ? scene.gravity_m_per_s2 : Vec2(Vec2::Zero()))
+    , gravity_table_(scene.gravity_table)
     , time_step_factor_(scene.numerics.time_step_factor)
     , max_step_(scene.numerics.max_step_s)
     , max_travel_(scene.numerics.max_travel_cells * scene.grid.cell_size_m)
     , lower_(scene.grid.lower_m)
     , upper_(scene.grid.upper_m)
-    , grid_(lower_, upper_, scene.grid.cell_size_m, scene.grid.faces)
 {
+  build_fields(scene);
   build_bodies(scene);
   build_sheets(scene);
   build_boundaries(scene);
+  build_loads(scene);
   const auto weigh = [this](const mpm::Particles<2>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
       inertia_ += particles.mass[p];
       weight_mass_ += particles.weight_mass[p];
     }
   };
-  for (const Body& body : bodies_)
+  for (const Body& body : now_.bodies)
     weigh(body.particles);
-  for (const EnclosingSheet& sheet : sheets_)
+  for (const ModelSheet& sheet : now_.sheets)
     weigh(sheet.sheet.nodes());
   survey();
+}
+
+std::size_t Model::field_index(const std::string& name) const
+{
+  const std::string field = name.empty() ? common_field : name;
+  const auto found = std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.name == field; });
+  return static_cast<std::size_t>(found - fields_.begin());
+}
+
+void Model::build_fields(const SceneDescription& scene)
+{
+  for (const std::string& name : scene.velocity_fields()) {
+    fields_.emplace_back(name, mpm::Grid<2>(lower_, upper_, scene.grid.cell_size_m, scene.grid.faces));
+    now_.contact.emplace_back(method_.shape);
+  }
+  for (const auto& [name, touching] : scene.contacts)
+    pairs_.push_back({ field_index(touching.between[0]), field_index(touching.between[1]), touching.friction,
+                       contact::FieldContact(method_.shape) });
 }
 
 void Model::build_bodies(const SceneDescription& scene)
@@ -75,45 +156,65 @@ void Model::build_bodies(const SceneDescription& scene)
 
     Body body;
     body.name = name;
+    body.field = field_index(description.velocity_field);
     body.law = material::make_law<2>(material);
-    body.constrained_modulus = material::constrained_modulus(material);
-    body.shear_modulus = material::shear_modulus(material);
+    const double shear = material::shear_modulus(material);
+    body.elastic = { material::constrained_modulus(material) - 2.0 * shear, shear };
+    body.viscous = material::is_fluid(material.law) ? mpm::Moduli{ -2.0 / 3.0, 1.0 } : body.elastic;
+    const material::DampingModuli damping = material::damping_moduli(material);
+    body.damping = { damping.lambda, damping.shear };
     mpm::Particles<2>& particles = body.particles;
-    particles.resize(sampling.points.size());
-    const double mass = material.density_kg_per_m3 * sampling.volume;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      for (std::size_t d = 0; d < 2; ++d) {
-        particles.position[d][p] = sampling.points[p][static_cast<Eigen::Index>(d)];
-        particles.velocity[d][p] = description.initial_velocity_m_per_s[static_cast<Eigen::Index>(d)];
-      }
-      particles.mass[p] = particles.weight_mass[p] = mass;
-      particles.volume[p] = particles.initial_volume[p] = sampling.volume;
+    place(sampling, material.density_kg_per_m3, particles);
+    if (body.law->needs_deformation())
+      particles.use_deformation();
+    body.row = particles.id;
+    body.start = std::make_shared<const std::vector<Vec2>>(sampling.points);
+    set_velocity(description.initial_velocity_m_per_s, description.initial_spin_rad_per_s,
+                 description.initial_velocity_wave, particles);
+    if (description.manufactured) {
+      body.manufactured = std::make_shared<const Manufactured>(*description.manufactured, material);
+      start_on_solution(*body.manufactured, particles);
     }
-    if (description.initial_stress != InitialStress::none)
-      set_k0_stress(description, material.density_kg_per_m3, shape, gravity_[1], particles);
+    if (description.initial_stress == InitialStress::hydrostatic)
+      set_hydrostatic(material, shape, scene.gravity_at(0.0)[1], particles);
+    else if (description.initial_stress != InitialStress::none)
+      set_k0_stress(description, material.density_kg_per_m3, shape, scene.gravity_at(0.0)[1], particles);
     body.law->initialise(particles.batch(), 0, particles.size());
-    bodies_.push_back(std::move(body));
+    now_.bodies.push_back(std::move(body));
   }
 }
 
 void Model::build_sheets(const SceneDescription& scene)
 {
   for (const auto& [name, description] : scene.geotextiles) {
-    const BodyDescription& inside = scene.bodies.at(description.encloses);
+    const bool free = description.encloses.empty();
     geotextile::SheetParameters parameters;
-    parameters.circumference = description.circumference_m;
     parameters.stiffness = description.stiffness_n_per_m;
     parameters.mass = description.mass_kg_per_m2;
     parameters.computational_mass = description.computational_mass_kg_per_m2;
     parameters.segment_length = description.segment_length_m;
     parameters.gauge_length = description.gauge_length_m;
-    sheets_.push_back(
-        { name, geotextile::Sheet(outline(inside.shape, scene.hull, description.segment_length_m), parameters) });
-    for (std::size_t d = 0; d < 2; ++d)
-      std::fill(sheets_.back().sheet.nodes().velocity[d].begin(), sheets_.back().sheet.nodes().velocity[d].end(),
-                inside.initial_velocity_m_per_s[static_cast<Eigen::Index>(d)]);
-    for (Body& body : bodies_)
-      body.enclosed = body.enclosed || body.name == description.encloses;
+    const geotextile::SheetLayout layout = sheet_layout(description, scene);
+    parameters.unstretched_length = unstretched_length(description, layout);
+    ModelSheet sheet{ name, 0, geotextile::Sheet(layout, parameters) };
+    if (free) {
+      sheet.field = field_index(description.velocity_field);
+      set_velocity(description.initial_velocity_m_per_s, 0.0, description.initial_velocity_wave, sheet.sheet.nodes());
+    } else {
+      const BodyDescription& inside = scene.bodies.at(description.encloses);
+      sheet.field = field_index(inside.velocity_field);
+      set_velocity(inside.initial_velocity_m_per_s, 0.0, std::nullopt, sheet.sheet.nodes());
+      for (Body& body : now_.bodies)
+        body.enclosed = body.enclosed || body.name == description.encloses;
+    }
+    const std::size_t last = sheet.sheet.nodes().size() - 1;
+    for (const auto& [end, node] :
+         { std::make_pair(&description.start, std::size_t{ 0 }), std::make_pair(&description.end, last) })
+      if (end->held)
+        held_ends_.push_back({ now_.sheets.size(), node, sheet.sheet.node(node), end->motion_table });
+    sheet.sheet.update_forces();  // what is tense as laid is so from the start
+    sheet_descriptions_.push_back(description);
+    now_.sheets.push_back(std::move(sheet));
   }
 }
 
@@ -131,8 +232,43 @@ void Model::build_boundaries(const SceneDescription& scene)
     boundaries_.emplace_back("hull_starboard", contact::Surface(hull.closed_section_m(barge::HullHalf::starboard)),
                              scene.hull->friction, spacing);
   }
-  for (const auto& [name, surface] : scene.surfaces)
-    boundaries_.emplace_back(name, contact::Surface(surface.line_m), surface.friction, spacing);
+  for (const auto& [name, surface] : scene.surfaces) {
+    std::vector<Vec2> line = surface.line_m;
+    if (surface.corner_radius_m > 0.0)
+      line = barge::round_corners(line, surface.corner_radius_m, arc_turn_rad, "surfaces." + name + ".corner_radius_m");
+    boundaries_.emplace_back(name, contact::Surface(std::move(line), surface.closed), surface.friction, spacing);
+  }
+  now_.boundary_totals.resize(boundaries_.size());
+}
+
+void Model::build_loads(const SceneDescription& scene)
+{
+  for (const auto& [name, support] : scene.supports)
+    supports_.push_back(support);
+  for (const auto& [name, description] : scene.tractions) {
+    const auto body = std::find_if(now_.bodies.begin(), now_.bodies.end(),
+                                   [&, &wanted = description.body](const Body& b) { return b.name == wanted; });
+    const BodyDescription& described = scene.bodies.at(description.body);
+    const double spacing = scene.grid.cell_size_m / described.particles_per_cell;
+    Traction traction(description, boundary_lines(described.shape, scene.hull, spacing), spacing, body->particles);
+    if (traction.pieces() == 0)
+      throw InputError(scene.source, "tractions." + name + ".region", "",
+                       "must hold part of the boundary of " + description.body);
+    now_.tractions.push_back(std::move(traction));
+    traction_body_.push_back(static_cast<std::size_t>(body - now_.bodies.begin()));
+  }
+}
+
+std::size_t Model::add_tracer(std::size_t body, const Vec2& at)
+{
+  const Body& owner = now_.bodies[body];
+  std::size_t nearest = 0;
+  for (std::size_t p = 1; p < owner.particles.size(); ++p)
+    if ((owner.position(p) - at).squaredNorm() < (owner.position(nearest) - at).squaredNorm())
+      nearest = p;
+  now_.tracers.push_back(
+      { body, owner.particles.id[nearest], at - owner.position(nearest), at, owner.velocity(nearest) });
+  return now_.tracers.size() - 1;
 }
 
 }  // namespace geocontainer_mpm::scene

@@ -33,7 +33,7 @@ void ReleaseWatch::observe(const Model& model, double time_s, const barge::Openi
   if (initial_volume_ < 0.0)
     initial_volume_ = soil_volume(model);
   current_ = 0.0;
-  for (const EnclosingSheet& enclosing : model.sheets()) {
+  for (const ModelSheet& enclosing : model.sheets()) {
     const geotextile::Sheet& sheet = enclosing.sheet;
     sheet.gauge_tension(gauge_);
     const auto largest = std::max_element(gauge_.begin(), gauge_.end());
@@ -43,7 +43,7 @@ void ReleaseWatch::observe(const Model& model, double time_s, const barge::Openi
       const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
       peak_ = *largest;
       peak_time_s_ = time_s;
-      peak_position_ = 0.5 * (sheet.node(segment) + sheet.node((segment + 1) % sheet.segments()));
+      peak_position_ = 0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment)));
     }
   }
   if (hull_)
@@ -55,7 +55,7 @@ void ReleaseWatch::judge(const Model& model, double time_s, const barge::Opening
   if (outcome_ == Outcome::released || (outcome_ == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
     return;
   double top = model.sheets().front().sheet.node(0)[1];
-  for (const EnclosingSheet& enclosing : model.sheets()) {
+  for (const ModelSheet& enclosing : model.sheets()) {
     const mpm::Column& z = enclosing.sheet.nodes().position[1];
     top = std::max(top, *std::max_element(z.begin(), z.end()));
   }
@@ -80,23 +80,19 @@ StatusFrame ReleaseWatch::status(const Model& model) const
   status.soil_volume_m2 = soil_volume(model);
   status.soil_volume_initial_m2 = initial_volume_;
 
-  double mass = 0.0;
   Vec2 lower = Vec2::Constant(1e300), upper = -lower;
   const auto extend = [&](const mpm::Particles<2>& particles, std::size_t p) {
-    Vec2 x(particles.position[0][p], particles.position[1][p]);
+    const Vec2 x(particles.position[0][p], particles.position[1][p]);
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);
-    return x;
   };
   for (const Body& body : model.bodies())
-    for (std::size_t p = 0; p < body.particles.size(); ++p) {
-      status.centroid_m += body.particles.mass[p] * extend(body.particles, p);
-      mass += body.particles.mass[p];
-    }
-  for (const EnclosingSheet& enclosing : model.sheets())
+    for (std::size_t p = 0; p < body.particles.size(); ++p)
+      extend(body.particles, p);
+  for (const ModelSheet& enclosing : model.sheets())
     for (std::size_t p = 0; p < enclosing.sheet.nodes().size(); ++p)
       extend(enclosing.sheet.nodes(), p);
-  status.centroid_m /= mass;
+  status.centroid_m = model.centroid();
   status.width_m = upper[0] - lower[0];
   status.height_m = upper[1] - lower[1];
   return status;
@@ -124,12 +120,13 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     }
     frame.soil.push_back(std::move(soil));
   }
-  for (const EnclosingSheet& enclosing : model.sheets()) {
+  for (const ModelSheet& enclosing : model.sheets()) {
     const geotextile::Sheet& sheet = enclosing.sheet;
     const GeotextileDescription& description = scene.geotextiles.at(enclosing.name);
     GeotextileFrame geotextile;
     geotextile.name = enclosing.name;
-    for (std::size_t i = 0; i < sheet.segments(); ++i) {
+    geotextile.closed = sheet.closed();
+    for (std::size_t i = 0; i < sheet.nodes().size(); ++i) {
       geotextile.node.push_back(sheet.node(i));
       geotextile.velocity.emplace_back(sheet.nodes().velocity[0][i], sheet.nodes().velocity[1][i]);
     }
@@ -147,10 +144,7 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     for (std::size_t p = 0; p < body.size(); ++p)
       boundary.position.push_back(body.reference(p));
     boundary.force_n_per_m = boundary_force[b];
-    if (b == static_cast<std::size_t>(model.hull_index()) && model.hull_index() >= 0)
-      boundary.angle_rad = frame.opening.port_rad;
-    else if (model.hull_index() >= 0 && b == static_cast<std::size_t>(model.hull_index()) + 1)
-      boundary.angle_rad = frame.opening.starboard_rad;
+    boundary.closed = body.closed();
     frame.boundary.push_back(std::move(boundary));
   }
 }

@@ -59,6 +59,54 @@ std::vector<Vec2> hopper_outline(double area, const HullDescription& hull)
                    fmt::format("the hopper holds less than {} m2 below its deck", filled));
 }
 
+/// Sides of about `resolution` for a smooth circle.
+int sides_around(double radius, double resolution)
+{
+  return std::max(24, static_cast<int>(std::ceil(2.0 * pi * radius / resolution)));
+}
+
+/// As many corners of a polygon on a circle as the sheet will have nodes along it, so that every node is on the circle.
+int segments_around(double radius, double segment_length)
+{
+  int sides = std::max(3, static_cast<int>(std::lround(2.0 * pi * radius / segment_length)));
+  while (sides > 3 && std::lround(2.0 * radius * sides * std::sin(pi / sides) / segment_length) < sides)
+    --sides;
+  return sides;
+}
+
+/// Counter-clockwise polygon on a circle.
+std::vector<Vec2> circle(const Vec2& center, int sides, double radius)
+{
+  std::vector<Vec2> points;
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2.0 * pi * k / sides;
+    points.emplace_back(center + radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return points;
+}
+
+/// Circles of particles between two radii, each particle as long as it is thick, as nearly as whole numbers allow.
+Sampling sample_ring(const Vec2& center, double inner, double outer, double spacing)
+{
+  Sampling result;
+  const int layers = std::max(1, static_cast<int>(std::lround((outer - inner) / spacing)));
+  const double thickness = (outer - inner) / layers;
+  for (int k = 0; k < layers; ++k) {
+    const double low = inner + k * thickness, high = low + thickness;
+    const double area = pi * (high * high - low * low);
+    const int count = low > 0.0 ? std::max(6, static_cast<int>(std::lround(area / (thickness * thickness)))) : 3;
+    // At the centroid of its piece of the ring.
+    const double radius = 2.0 / 3.0 * (high * high * high - low * low * low) / (high * high - low * low) *
+                          std::sin(pi / count) / (pi / count);
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2.0 * pi * (i + 0.5 * (k % 2)) / count;
+      result.points.emplace_back(center + radius * Vec2(std::cos(angle), std::sin(angle)));
+      result.volumes.push_back(area / count);
+    }
+  }
+  return result;
+}
+
 bool contains(const std::vector<Vec2>& polygon, const Vec2& x)
 {
   bool in = false;
@@ -88,11 +136,10 @@ std::vector<Vec2> outline(const ShapeDescription& shape, const std::optional<Hul
     for (const Vec2& corner : { lower, Vec2(upper[0], lower[1]), upper, Vec2(lower[0], upper[1]) })
       result.push_back(rotate(corner, shape.box->pivot_m, shape.box->rotation_deg));
   } else if (shape.disc) {
-    const int sides = std::max(24, static_cast<int>(std::ceil(2.0 * pi * shape.disc->radius_m / resolution)));
-    for (int k = 0; k < sides; ++k) {
-      const double angle = 2.0 * pi * k / sides;
-      result.emplace_back(shape.disc->center_m + shape.disc->radius_m * Vec2(std::cos(angle), std::sin(angle)));
-    }
+    result = circle(shape.disc->center_m, sides_around(shape.disc->radius_m, resolution), shape.disc->radius_m);
+  } else if (shape.ring) {
+    result =
+        circle(shape.ring->center_m, sides_around(shape.ring->outer_radius_m, resolution), shape.ring->outer_radius_m);
   } else if (shape.polygon) {
     result = shape.polygon->vertices_m;
   } else {
@@ -115,9 +162,13 @@ Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline,
         const Vec2 x = shape.box->lower_m + Vec2((i + 0.5) * size[0] / columns, (j + 0.5) * size[1] / rows);
         result.points.push_back(rotate(x, shape.box->pivot_m, shape.box->rotation_deg));
       }
-    result.volume = size[0] * size[1] / static_cast<double>(result.points.size());
+    result.volumes.assign(result.points.size(), size[0] * size[1] / static_cast<double>(result.points.size()));
     return result;
   }
+  if (shape.disc)
+    return sample_ring(shape.disc->center_m, 0.0, shape.disc->radius_m, spacing);
+  if (shape.ring)
+    return sample_ring(shape.ring->center_m, shape.ring->inner_radius_m, shape.ring->outer_radius_m, spacing);
   Vec2 lower = outline.front(), upper = outline.front();
   for (const Vec2& vertex : outline) {
     lower = lower.cwiseMin(vertex);
@@ -134,8 +185,45 @@ Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline,
         result.points.push_back(x);
     }
   if (!result.points.empty())
-    result.volume = polygon_area(outline) / static_cast<double>(result.points.size());
+    result.volumes.assign(result.points.size(), polygon_area(outline) / static_cast<double>(result.points.size()));
   return result;
+}
+
+std::vector<std::vector<Vec2>> boundary_lines(const ShapeDescription& shape, const std::optional<HullDescription>& hull,
+                                              double resolution)
+{
+  std::vector<std::vector<Vec2>> lines{ outline(shape, hull, resolution) };
+  if (shape.ring) {
+    lines.push_back(
+        circle(shape.ring->center_m, sides_around(shape.ring->inner_radius_m, resolution), shape.ring->inner_radius_m));
+    std::reverse(lines.back().begin(), lines.back().end());
+  }
+  return lines;
+}
+
+geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene)
+{
+  if (sheet.line)
+    return { sheet.line->points_m, sheet.line->closed };
+  if (sheet.circle)
+    return { circle(sheet.circle->center_m, segments_around(sheet.circle->radius_m, sheet.segment_length_m),
+                    sheet.circle->radius_m),
+             true };
+  return { outline(scene.bodies.at(sheet.encloses).shape, scene.hull, sheet.segment_length_m), true };
+}
+
+double unstretched_length(const GeotextileDescription& sheet, const geotextile::SheetLayout& layout)
+{
+  double path = 0.0;
+  for (std::size_t i = 1; i < layout.points.size(); ++i)
+    path += (layout.points[i] - layout.points[i - 1]).norm();
+  if (layout.closed)
+    path += (layout.points.front() - layout.points.back()).norm();
+  if (sheet.circumference_m)
+    return *sheet.circumference_m;
+  if (sheet.slack)
+    return path * (1.0 + *sheet.slack);
+  return path / (1.0 + sheet.pretension_n_per_m.value_or(0.0) / sheet.stiffness_n_per_m);
 }
 
 double top_at(const std::vector<Vec2>& polygon, double y)

@@ -44,6 +44,7 @@ Json energy(const EnergyFrame& frame)
            { "dissipated_contact", frame.dissipated_contact },
            { "dissipated_transfer", frame.dissipated_transfer },
            { "work_in", frame.work_in },
+           { "unbalanced", frame.unbalanced },
            { "relative_balance_error", frame.relative_balance_error },
            { "unit", "J/m" } };
 }
@@ -59,7 +60,20 @@ Json skipped(const SkippedCounts& counts)
 Json stages(const StageTimes& times)
 {
   return { { "p2g_s", times.p2g_s },           { "forces_s", times.forces_s }, { "contact_s", times.contact_s },
-           { "membrane_s", times.membrane_s }, { "g2p_s", times.g2p_s },       { "material_s", times.material_s } };
+           { "membrane_s", times.membrane_s }, { "g2p_s", times.g2p_s },       { "material_s", times.material_s },
+           { "bound_s", times.bound_s } };
+}
+
+Json probes(const std::vector<ProbeFrame>& series)
+{
+  Json all = Json::object();
+  for (const ProbeFrame& one : series) {
+    Json probe{ { "kind", one.kind }, { "time_s", one.time_s } };
+    for (const ProbeFrame::Column& column : one.columns)
+      probe[column.name] = column.values;
+    all[one.name] = std::move(probe);
+  }
+  return all;
 }
 
 /// Keys of the sheet; null in a scene without one, and where and when of a peak that has not been.
@@ -103,12 +117,14 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   summary["momentum_error"] = counters.momentum_error;
   summary["particles"] = counters.particles;
   summary["steps"] = counters.steps;
+  summary["retries"] = counters.retries;
   summary["min_dt_s"] = counters.min_dt_s;
   summary["max_dt_s"] = counters.max_dt_s;
   summary["simulated_time_s"] = counters.simulated_time_s;
   summary["wall_time_s"] = wall_time_s;
   summary["real_time_factor"] = wall_time_s > 0.0 ? Json(counters.simulated_time_s / wall_time_s) : Json();
   summary["threads"] = threads;
+  summary["probes"] = probes(simulation.probes());
   summary["stages"] = stages(counters.stages);
   summary["skipped"] = skipped(counters.skipped);
   summary["accepted_samples"] = opening.count(barge::SampleVerdict::accepted);

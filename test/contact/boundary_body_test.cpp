@@ -33,24 +33,37 @@ TEST(BoundaryBody, CoversItsSurfaceAtTheSpacing)
   }));
 }
 
-TEST(BoundaryBody, IsTheExactRotationAfterAnyHistory)
+TEST(BoundaryBody, CoversAClosedSurfaceToItsLastSegment)
+{
+  BoundaryBody body("block", Surface({ { 0.0, 0.0 }, { 0.0, 1.0 }, { 1.0, 1.0 }, { 1.0, 0.0 } }, true), 0.3, 0.25);
+  ASSERT_EQ(body.size(), 16U);
+  Vec2 middle = Vec2::Zero();
+  for (std::size_t p = 0; p < body.size(); ++p)
+    middle += body.reference(p) / 16.0;
+  EXPECT_LT(apart(middle, Vec2(0.5, 0.5)), 1e-15);
+}
+
+TEST(BoundaryBody, IsTheExactMotionAfterAnyHistory)
 {
   EXPECT_TRUE(holds("history", [](Chance& chance) {
     BoundaryBody body = random_body(chance, 0.1);
     const Vec2 pivot = chance.vector<2>(3.0);
     double angle = chance(-1.0, 1.0);
+    Vec2 shift = chance.vector<2>(2.0);
     for (int step = 0; step < 50; ++step) {
       const double next = angle + chance(-0.05, 0.05), dt = chance(1e-4, 1e-2);
-      body.set_motion(RigidPose::rotation(angle, pivot), RigidPose::rotation(next, pivot), dt);
+      const Vec2 next_shift = shift + chance.vector<2>(0.05);
+      body.set_motion(RigidPose::motion(angle, pivot, shift), RigidPose::motion(next, pivot, next_shift), dt);
       const Eigen::Rotation2Dd now(angle), then(next);
       for (std::size_t p = 0; p < body.size(); ++p) {
         const Vec2 arm = body.reference(p) - pivot;
-        RC_ASSERT(apart(body.position(p), pivot + now * arm) < 1e-12);
-        RC_ASSERT(apart(body.position(p) + dt * body.velocity(p), pivot + then * arm) < 1e-12);
+        RC_ASSERT(apart(body.position(p), pivot + shift + now * arm) < 1e-12);
+        RC_ASSERT(apart(body.position(p) + dt * body.velocity(p), pivot + next_shift + then * arm) < 1e-12);
         RC_ASSERT(apart(body.velocity_at(body.position(p)), body.velocity(p)) < 1e-12 / dt);
         RC_ASSERT(std::abs(body.normal(p).norm() - 1.0) < 1e-12);
       }
       angle = next;
+      shift = next_shift;
     }
   }));
 }
@@ -62,7 +75,7 @@ TEST(BoundaryBody, CarriesItsSurfaceWithIt)
     body.set_motion({}, {}, 1.0);
     const Vec2 x = body.reference(0) + chance.vector<2>(1.0);
     const Nearest before = body.nearest(x);
-    const RigidPose pose = RigidPose::rotation(chance(-2.0, 2.0), chance.vector<2>(3.0));
+    const RigidPose pose = RigidPose::motion(chance(-2.0, 2.0), chance.vector<2>(3.0), chance.vector<2>(3.0));
     body.set_motion(pose, pose, 1.0);
     const Nearest after = body.nearest(pose.apply(x));
     if (std::isinf(before.distance) || std::isinf(after.distance))

@@ -80,7 +80,7 @@ struct Patch {
   void to_grid(const Vec2& gravity = Vec2::Zero(), double kick = 0.0)
   {
     mpm::testing::open(mpm::testing::everything(grid), grid);
-    mpm::sheet_to_grid<2>(points, gravity, grid);
+    mpm::sheet_to_grid<2>({}, points, mpm::Part::all, gravity, grid);
     mpm::testing::apply_forces(grid, kick, 0.0);
   }
   Vec2 velocity_at(const Vec2& x) const { return mpm::testing::interpolated<2>(grid, x); }

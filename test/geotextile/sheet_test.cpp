@@ -43,12 +43,12 @@ Sheet ring(std::size_t corners, double strain, double gauge_length = 0.0)
 {
   SheetParameters p;
   p.segment_length = side(corners);
-  p.circumference = static_cast<double>(corners) * side(corners) / (1.0 + strain);
+  p.unstretched_length = static_cast<double>(corners) * side(corners) / (1.0 + strain);
   p.stiffness = stiffness;
   p.mass = 0.84;
   p.computational_mass = 20.0;
   p.gauge_length = std::max(gauge_length, side(corners));
-  return Sheet(regular(corners), p);
+  return Sheet({ regular(corners), true }, p);
 }
 
 /// A ring whose nodes have been moved anyhow: some segments taut, some slack.
@@ -74,12 +74,12 @@ TEST(Sheet, IsLaidEvenlyAroundItsOutlineWithItsMass)
     }
     SheetParameters p;
     p.segment_length = chance(0.05, 0.5);
-    p.circumference = chance(10.0, 30.0);
+    p.unstretched_length = chance(10.0, 30.0);
     p.stiffness = stiffness;
     p.mass = chance(0.2, 1.5);
     p.computational_mass = chance(2.0, 30.0);
     p.gauge_length = 0.5;
-    const Sheet sheet(outline, p);
+    const Sheet sheet({ outline, true }, p);
     double laid = 0.0;
     for (std::size_t k = 0; k < outline.size(); ++k)
       laid += (outline[(k + 1) % outline.size()] - outline[k]).norm();
@@ -98,8 +98,8 @@ TEST(Sheet, IsLaidEvenlyAroundItsOutlineWithItsMass)
       RC_ASSERT(distance < 1e-9);
     }
     const auto sum = [](const mpm::Column& column) { return std::accumulate(column.begin(), column.end(), 0.0); };
-    RC_ASSERT(std::abs(sum(sheet.nodes().mass) - p.computational_mass * p.circumference) < 1e-9);
-    RC_ASSERT(std::abs(sum(sheet.nodes().weight_mass) - p.mass * p.circumference) < 1e-9);
+    RC_ASSERT(std::abs(sum(sheet.nodes().mass) - p.computational_mass * p.unstretched_length) < 1e-9);
+    RC_ASSERT(std::abs(sum(sheet.nodes().weight_mass) - p.mass * p.unstretched_length) < 1e-9);
   }));
 }
 
@@ -303,11 +303,11 @@ TEST(Sheet, BoundsItsLargestFrequency)
       set_vector<2>(sheet.nodes().position, i, sheet.node(i) + chance.vector<2>(1e-3 * side(corners)));
     sheet.update_forces();
     mpm::testing::open(mpm::testing::everything(grid), grid);
-    mpm::sheet_to_grid<2>(sheet.nodes(), Vec2::Zero(), grid);
+    mpm::sheet_to_grid<2>({}, sheet.nodes(), mpm::Part::all, Vec2::Zero(), grid);
     if (seed % 3 == 0) {  // and with sand about
       mpm::Particles<2> sand =
           mpm::testing::random_cloud<2>(chance, 500, Vec2::Constant(-0.7 * radius), Vec2::Constant(0.7 * radius));
-      mpm::sheet_to_grid<2>(sand, Vec2::Zero(), grid);
+      mpm::sheet_to_grid<2>({}, sand, mpm::Part::all, Vec2::Zero(), grid);
     }
     const double bound = sheet.frequency_bound(grid);
     const double ratio = std::sqrt(bound / largest_square(sheet, grid));
@@ -328,7 +328,7 @@ TEST(Sheet, BoundsNothingWhileSlackAndItsWholeStiffnessBeforeItTightens)
     Sheet sheet = ring(120, strain);
     sheet.update_forces();
     mpm::testing::open(mpm::testing::everything(grid), grid);
-    mpm::sheet_to_grid<2>(sheet.nodes(), Vec2::Zero(), grid);
+    mpm::sheet_to_grid<2>({}, sheet.nodes(), mpm::Part::all, Vec2::Zero(), grid);
     return sheet.frequency_bound(grid);
   };
   EXPECT_EQ(bound(-0.05), 0.0);

@@ -22,6 +22,11 @@ public:
       batch_.velocity_gradient[i] = &gradient_[i];
     for (std::size_t i = 0; i < stress_.size(); ++i)
       batch_.stress[i] = &stress_[i];
+    if (law_->needs_deformation())
+      for (std::size_t i = 0; i < deformation_.size(); ++i)
+        batch_.deformation[i] = &deformation_[i];
+    set_entries(deformation_, Mat<Dim>::Identity());
+    batch_.initial_volume = &initial_volume_;
     batch_.volume = &volume;
     batch_.separated_strain = &bank;
     batch_.elastic_energy = &elastic_energy;
@@ -31,6 +36,7 @@ public:
   OneParticle& operator=(const OneParticle& other)
   {
     stress_ = other.stress_;
+    deformation_ = other.deformation_;
     volume = other.volume;
     bank = other.bank;
     elastic_energy = other.elastic_energy;
@@ -56,20 +62,41 @@ public:
   }
   void set_stress(const Eigen::Matrix3d& s)
   {
-    if constexpr (Dim == 2)
-      stress_ = { s(0, 0), s(1, 1), s(0, 1), s(2, 2) };
-    else
-      stress_ = { s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2) };
+    set_components(s);
     law_->initialise(batch_, 0, 1);
   }
 
-  /// Moves the particle by x -> x + h x.
-  void step(const Mat<Dim>& h)
+  Mat<Dim> deformation() const
   {
-    const double dt = 1.0 / 1024.0;  // a power of two: dt times the gradient is h to the last bit
-    for (int i = 0; i < Dim; ++i)
-      for (int j = 0; j < Dim; ++j)
-        gradient_[static_cast<std::size_t>(i * Dim + j)] = h(i, j) / dt;
+    return Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(deformation_.data());
+  }
+  /// For laws that keep F.
+  void set_deformation(const Mat<Dim>& f)
+  {
+    set_entries(deformation_, f);
+    law_->initialise(batch_, 0, 1);
+  }
+  /// For fluids: at rest at this volume, of an initial one of 1.
+  void set_volume(double v)
+  {
+    volume = v;
+    law_->initialise(batch_, 0, 1);
+  }
+  /// The same state seen from a frame in which everything is turned by q.
+  void turn(const Mat<Dim>& q)
+  {
+    Eigen::Matrix3d full = Eigen::Matrix3d::Identity();
+    full.template topLeftCorner<Dim, Dim>() = q;
+    set_components(full * stress() * full.transpose());
+    set_entries(deformation_, q * deformation() * q.transpose());
+  }
+
+  static constexpr double usual_dt = 1.0 / 1024.0;  // a power of two: dt times the gradient is h to the last bit
+
+  /// Moves the particle by x -> x + h x.
+  void step(const Mat<Dim>& h, double dt = usual_dt)
+  {
+    set_entries(gradient_, h / dt);
     const Eigen::Matrix3d before = rotation(h) * stress() * rotation(h).transpose();
     const double old_volume = volume, old_density = elastic_energy / volume;
     law_->update(batch_, dt, 0, 1);
@@ -77,6 +104,8 @@ public:
     work += mid * 0.5 * (before + stress()).cwiseProduct(strain(h)).sum();
     volume_defect += 0.5 * (old_density + elastic_energy / volume) * (volume - old_volume);
   }
+
+  Stiffness stiffness() const { return law_->stiffness(batch_, 0, 1); }
 
   static Eigen::Matrix3d midpoint_gradient(const Mat<Dim>& h)
   {
@@ -104,9 +133,22 @@ public:
   double volume_defect = 0.0;  ///< sum of e dV: what V e is not a potential for in a Cauchy-stress law, J
 
 private:
+  void set_components(const Eigen::Matrix3d& s)
+  {
+    if constexpr (Dim == 2)
+      stress_ = { s(0, 0), s(1, 1), s(0, 1), s(2, 2) };
+    else
+      stress_ = { s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2) };
+  }
+  static void set_entries(std::array<double, Dim * Dim>& entries, const Mat<Dim>& m)
+  {
+    Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(entries.data()) = m;
+  }
+
   Parameters parameters_;
   std::unique_ptr<Law<Dim>> law_;
-  std::array<double, Dim * Dim> gradient_{};
+  std::array<double, Dim * Dim> gradient_{}, deformation_{};
+  double initial_volume_ = 1.0;
   std::array<double, stress_size<Dim>> stress_{};
   Batch<Dim> batch_{};
 };
@@ -118,6 +160,27 @@ inline Parameters elastic_soil()
   p.density_kg_per_m3 = 1600.0;
   p.young_modulus_pa = 1e7;
   p.poisson_ratio = 0.3;
+  return p;
+}
+
+inline Parameters finite(LawName law)
+{
+  Parameters p = elastic_soil();
+  p.law = law;
+  return p;
+}
+
+inline Parameters slurry(LawName law)
+{
+  Parameters p;
+  p.law = law;
+  p.density_kg_per_m3 = 1300.0;
+  p.bulk_modulus_pa = 1e6;
+  p.viscosity_pa_s = 2.0;
+  if (law == LawName::bingham) {
+    p.yield_stress_pa = 50.0;
+    p.regularisation_rate_per_s = 0.05;
+  }
   return p;
 }
 

@@ -70,4 +70,47 @@ inline Parameters random_mohr_coulomb()
   return p;
 }
 
+inline Parameters random_parameters(LawName law)
+{
+  if (law == LawName::mohr_coulomb)
+    return random_mohr_coulomb();
+  if (is_fluid(law)) {
+    Parameters p = slurry(law);
+    p.bulk_modulus_pa = uniform(1e5, 1e7);
+    p.viscosity_pa_s = uniform(0.0, 10.0);
+    p.yield_stress_pa = uniform(0.0, 200.0);
+    p.regularisation_rate_per_s = uniform(0.01, 10.0);
+    return p;
+  }
+  Parameters p = finite(law);
+  p.poisson_ratio = uniform(0.0, 0.49);
+  return p;
+}
+
+template <int Dim>
+Mat<Dim> random_deformation(double size)  // never inside out
+{
+  const Mat<Dim> f = Mat<Dim>::Identity() + random_gradient<Dim>(size);
+  return f.determinant() > 0.2 ? f : random_deformation<Dim>(0.5 * size);
+}
+
+inline constexpr double stress_size_pa = 1e5;
+
+/// A random state that the law admits, everything counted from there.
+template <int Dim>
+OneParticle<Dim> random_state(const Parameters& parameters)
+{
+  OneParticle<Dim> particle(parameters);
+  if (is_fluid(parameters.law))
+    particle.set_volume(uniform(0.8, 1.1));
+  else if (parameters.law == LawName::neo_hookean || parameters.law == LawName::hencky)
+    particle.set_deformation(random_deformation<Dim>(0.4));
+  else {
+    particle.set_stress(random_stress<Dim>(stress_size_pa));
+    particle.step(Mat<Dim>::Zero());  // one step at rest returns any stress to the yield surface
+  }
+  particle.work = particle.dissipated = particle.volume_defect = 0.0;
+  return particle;
+}
+
 }  // namespace geocontainer_mpm::material::testing

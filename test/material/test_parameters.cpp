@@ -91,6 +91,48 @@ TEST(Parameters, AnElasticLawDoesNotAskForStrength)
   EXPECT_NO_THROW(p.validate("m"));
 }
 
+void expect_refusal(const Parameters& parameters, const char* line)
+{
+  try {
+    parameters.validate("m");
+    FAIL() << "accepted: " << line;
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), line);
+  }
+}
+
+TEST(Parameters, AFluidAsksForItsOwnAndNotForElasticity)
+{
+  EXPECT_NO_THROW(slurry(LawName::newtonian).validate("m"));
+  EXPECT_NO_THROW(slurry(LawName::bingham).validate("m"));
+  Parameters p = slurry(LawName::newtonian);
+  p.viscosity_pa_s = 0.0;
+  p.yield_stress_pa = -1.0;  // of bingham only
+  EXPECT_NO_THROW(p.validate("m"));
+  p.bulk_modulus_pa = 0.0;
+  expect_refusal(p, "m.bulk_modulus_pa = 0: must be a finite stiffness above 0 Pa");
+  p = slurry(LawName::newtonian);
+  p.viscosity_pa_s = -1.0;
+  expect_refusal(p, "m.viscosity_pa_s = -1: must be a finite viscosity of at least 0 Pa s");
+  p = slurry(LawName::bingham);
+  p.yield_stress_pa = nan;
+  expect_refusal(p, "m.yield_stress_pa = nan: must be a finite stress of at least 0 Pa");
+  p = slurry(LawName::bingham);
+  p.regularisation_rate_per_s = 0.0;
+  expect_refusal(p, "m.regularisation_rate_per_s = 0: must be a finite rate above 0 1/s");
+}
+
+TEST(Parameters, DampingIsATimeOfEverySolid)
+{
+  for (const LawName law : { LawName::linear_elastic, LawName::mohr_coulomb, LawName::neo_hookean, LawName::hencky }) {
+    Parameters p = sand();
+    p.law = law;
+    EXPECT_NO_THROW(p.validate("m"));
+    p.stiffness_damping_s = -1e-3;
+    expect_refusal(p, "m.stiffness_damping_s = -0.001: must be a finite time of at least 0 s");
+  }
+}
+
 TEST(Parameters, RefuseALawThatDoesNotExist)
 {
   Parameters p = elastic_soil();

@@ -42,7 +42,7 @@ TYPED_TEST(Separation, SandNeverPullsAndMeetsAgainAtTheVolumeWhereItParted)
         particle.step(h);
         RC_ASSERT(particle.stress().norm() == 0.0);
         RC_ASSERT(particle.elastic_energy == 0.0);
-        RC_ASSERT(std::abs(particle.bank - std::log(particle.volume / contact)) <= 1e-12);
+        RC_ASSERT(std::abs(particle.bank - std::log(particle.volume / contact)) <= 60 * 2.2e-16);
       }
       const int steps = *rc::gen::inRange(1, 20);
       const double ratio = std::pow(contact / particle.volume, 1.0 / steps);
@@ -51,11 +51,15 @@ TYPED_TEST(Separation, SandNeverPullsAndMeetsAgainAtTheVolumeWhereItParted)
         RC_ASSERT(particle.stress().norm() == 0.0);
       }
       particle.step(isotropic<Dim>(contact / particle.volume));
-      RC_ASSERT(std::abs(particle.volume - contact) <= 1e-12);
-      RC_ASSERT(particle.bank <= 1e-12);
-      RC_ASSERT(particle.stress().norm() <= 1e-12 * 1e7 * 3.0);
+      // Back at contact but for the rounding of volume and bank: up to 50 steps a cycle, which add up at random.
+      const double rounding = 60 * 2.2e-16, stress = rounding * constrained_modulus(sand());
+      RC_ASSERT(std::abs(particle.volume - contact) <= rounding);
+      RC_ASSERT(particle.bank <= rounding);
+      RC_ASSERT(particle.stress().norm() <= 2.0 * stress);
       RC_ASSERT(principal(particle.stress())(2) <= 0.0);
-      RC_ASSERT(std::abs(particle.dissipated) + std::abs(particle.work) <= 1e-13 * 1e7);
+      // The trapezoidal rule charges what is left of stress over the whole strain, below 0.1, of the step that closes
+      // the gap and of that which opens it again.
+      RC_ASSERT(std::abs(particle.dissipated) + std::abs(particle.work) <= 5 * 2 * 2 * 0.1 * stress);
     }
     particle.step(isotropic<Dim>(1.0 - 1e-6));
     const double poisson = 0.3, lame = 1e7 * poisson / (1.3 * 0.4), shear = 1e7 / 2.6;

@@ -92,7 +92,7 @@ TYPED_TEST(Update, GivesTheSameBitsWithAnyNumberOfThreads)
     for (const int threads : { 2, 3 }) {
       Grid<Dim> grid = start;
       ThreadTeam team(threads);
-      const MotionSums<Dim> again = GridUpdate<Dim>().apply_forces(grid, 1e-3, 2.0, team);
+      const MotionSums<Dim> again = GridUpdate<Dim>().apply_forces({}, grid, 1e-3, 2.0, team);
       RC_ASSERT(again.kinetic_before == sums.kinetic_before);
       RC_ASSERT(again.kinetic_after == sums.kinetic_after);
       RC_ASSERT(again.damped == sums.damped);

@@ -193,28 +193,49 @@ void open(const Window<Dim>& window, Grid<Dim>& grid)
 }
 
 template <int Dim>
-MotionSums<Dim> apply_forces(Grid<Dim>& grid, double kick, double damping_per_s)
+MotionSums<Dim> apply_forces(Grid<Dim>& grid, double kick, double damping_per_s, const Discretisation& choice = {})
 {
   ThreadTeam alone(1);
-  return GridUpdate<Dim>().apply_forces(grid, kick, damping_per_s, alone);
+  return GridUpdate<Dim>().apply_forces(choice, grid, kick, damping_per_s, alone);
 }
 
 template <int Dim>
-void body_to_grid(const Particles<Dim>& particles, const Strips& strips, const Vec<Dim>& gravity, Grid<Dim>& grid)
+void body_to_grid(const Particles<Dim>& particles, const Strips& strips, const Vec<Dim>& gravity, Grid<Dim>& grid,
+                  const Discretisation& choice = {}, const BodyTerms& terms = {})
 {
   ThreadTeam alone(1);
-  mpm::body_to_grid(particles, strips, gravity, grid, alone);
+  mpm::body_to_grid(choice, particles, strips, terms, gravity, grid, alone);
+}
+
+template <int Dim>
+void sheet_to_grid(const Particles<Dim>& nodes, const Vec<Dim>& gravity, Grid<Dim>& grid,
+                   const Discretisation& choice = {})
+{
+  mpm::sheet_to_grid(choice, nodes, Part::all, gravity, grid);
+}
+
+template <int Dim>
+void grid_to_particles(const Grid<Dim>& grid, double dt, bool want_gradient, Particles<Dim>& particles,
+                       std::size_t begin, std::size_t end)
+{
+  mpm::grid_to_particles({}, grid, dt, want_gradient ? Gather::all : Gather::motion, particles, begin, end);
+}
+template <int Dim>
+void gather(const Discretisation& choice, const Grid<Dim>& grid, double dt, Gather what, Particles<Dim>& particles)
+{
+  mpm::grid_to_particles(choice, grid, dt, what, particles, 0, particles.size());
 }
 
 /// Sorts and scatters on a cleared grid: what a step does first.
 template <int Dim>
-void scatter_body(Particles<Dim>& particles, const Vec<Dim>& gravity, Grid<Dim>& grid)
+void scatter_body(Particles<Dim>& particles, const Vec<Dim>& gravity, Grid<Dim>& grid,
+                  const Discretisation& choice = {}, const BodyTerms& terms = {})
 {
   Strips strips;
   Sorter<Dim> sorter;
   sorter.sort(grid, particles, strips);
   open(everything(grid), grid);
-  body_to_grid(particles, strips, gravity, grid);
+  body_to_grid(particles, strips, gravity, grid, choice, terms);
 }
 
 template <int Dim, class Visitor>

@@ -130,7 +130,7 @@ TYPED_TEST(Sorting, GivesTheSameBitsWithAnyNumberOfThreads)
     const auto scattered = [&](int threads) {
       ThreadTeam team(threads);
       grid.open(everything(grid), team);
-      mpm::body_to_grid(particles, strips, gravity, grid, team);
+      mpm::body_to_grid({}, particles, strips, {}, gravity, grid, team);
       const auto* nodes = reinterpret_cast<const char*>(grid.nodes());
       const auto* forces = reinterpret_cast<const char*>(grid.forces());
       std::vector<char> bytes(nodes, nodes + grid.size() * sizeof(typename Grid<Dim>::Node));

@@ -21,7 +21,7 @@ def read_everything(path):
         for name in names:
             frame = record["frames"][name]
             assert frame["time"][()] == frame.attrs["time_s"]
-            assert {"soil", "geotextile", "hull", "surface", "energy", "status"} <= set(frame)
+            assert {"soil", "geotextile", "hull", "surface", "energy", "status", "probes"} <= set(frame)
             frame.visititems(visit)
         return names
 

@@ -156,6 +156,18 @@ void fill_status(scene::Frame& frame)
   energy.relative_balance_error = 1e-3;
 }
 
+/// The container's centre, twice a second between frames one second apart.
+scene::ProbeFrame centre_probe(double t)
+{
+  const std::vector<double> times{ t - 0.5, t };
+  scene::ProbeFrame probe{ "centre", "body", times, { { "z", "m", {} }, { "velocity_z", "m/s", {} } } };
+  for (const double time : times) {
+    probe.columns[0].values.push_back(ellipse(time).z);
+    probe.columns[1].values.push_back(rate(time, [](double s) { return Vec2(0.0, ellipse(s).z); })[1]);
+  }
+  return probe;
+}
+
 }  // namespace
 
 scene::Frame synthetic_frame(double time_s, int rings)
@@ -172,6 +184,7 @@ scene::Frame synthetic_frame(double time_s, int rings)
   frame.boundary.push_back(hull_half(time_s, -1.0));
   frame.boundary.push_back(polyline("bed", { { -8.0, bed_z_m }, { 8.0, bed_z_m } }, 0.1));
   fill_status(frame);
+  frame.probes.push_back(centre_probe(time_s));
   return frame;
 }
 

@@ -107,6 +107,42 @@ class PlotRecord(unittest.TestCase):
 
         self.expect_pictures(self.record("column.h5", 9, strip), "--soil", "stress")
 
+    def test_cable_alone(self):
+        def only_cable(frame):
+            for name in ("hull", "soil", "surface"):
+                del frame[name]
+            frame["status"].attrs["release_time_s"] = -1.0
+            sheet = frame["geotextile"]
+            sheet.attrs["closed"] = [0]
+            sheet.attrs["segment_count"] = [sheet["node"].shape[0] - 1]
+            for name in ("connectivity", "tension", "gauge_tension"):
+                kept = sheet[name][:-1]
+                del sheet[name]
+                sheet[name] = kept
+
+        self.expect_pictures(self.record("cable.h5", 9, only_cable))
+
+    def test_several_sheets_and_a_roller(self):
+        def six_sheets(frame):
+            frame["surface"].attrs["closed"] = [1]
+            sheet = frame["geotextile"]
+            count = sheet["node"].shape[0]
+            for name in ("node", "tension", "gauge_tension", "connectivity"):
+                one = sheet[name][()]
+                more = [one + (i * count if name == "connectivity" else 0.1 * i) for i in range(6)]
+                del sheet[name]
+                sheet[name] = numpy.concatenate(more)
+            sheet.attrs["name"] = numpy.array([f"bag_{i}" for i in range(6)], dtype="S")
+            for name, value in (("first", [i * count for i in range(6)]), ("count", [count] * 6), ("closed", [1] * 6)):
+                sheet.attrs[name] = value
+            sheet.attrs["first_segment"], sheet.attrs["segment_count"] = sheet.attrs["first"], sheet.attrs["count"]
+            for name in ("gauge_length_m", "strength_n_per_m", "seam_strength_n_per_m"):
+                sheet.attrs[name] = numpy.repeat(sheet.attrs[name], 6)
+
+        path = self.record("six.h5", 9, six_sheets)
+        self.assertEqual(self.program.Record(path).tension.shape, (9, 6))
+        self.expect_pictures(path)
+
     def test_short_run_and_chosen_times(self):
         self.expect_pictures(self.record("one.h5", 1))
         self.expect_pictures(self.record("some.h5", 41), "--times", "0,12.5,40")

@@ -218,6 +218,110 @@ TEST_F(RecorderTest, LaysSeveralBodiesAndSheetsEndToEnd)
   EXPECT_EQ(pairs[pairs.size() - 1], nodes);
 }
 
+TEST_F(RecorderTest, AnOpenSheetHasOneSegmentLessThanNodes)
+{
+  scene::Frame frame = synthetic_frame(1.0, 1);
+  scene::GeotextileFrame cable = frame.geotextile.front();
+  cable.name = "cable";
+  cable.closed = false;
+  cable.tension.pop_back();
+  cable.gauge_tension.pop_back();
+  frame.geotextile.insert(frame.geotextile.begin(), cable);
+  {
+    Recorder recorder(path("open.h5"), "open", "");
+    ASSERT_EQ(recorder.write(frame), "");
+  }
+  const Reader reader(path("open.h5"));
+  const std::string sheet = "/frames/000000/geotextile";
+  const auto nodes = static_cast<double>(cable.node.size());
+  EXPECT_EQ(reader.number_attribute(sheet, "closed"), (std::vector<double>{ 0.0, 1.0 }));
+  EXPECT_EQ(reader.number_attribute(sheet, "first_segment"), (std::vector<double>{ 0.0, nodes - 1.0 }));
+  EXPECT_EQ(reader.number_attribute(sheet, "segment_count"), (std::vector<double>{ nodes - 1.0, nodes }));
+  const std::vector<double> pairs = reader.numbers(sheet + "/connectivity");
+  ASSERT_EQ(pairs.size(), static_cast<std::size_t>(2.0 * (2.0 * nodes - 1.0)));
+  const std::size_t end = 2 * (cable.node.size() - 1);  // where the closed sheet begins
+  EXPECT_EQ(pairs[end - 2], nodes - 2.0);
+  EXPECT_EQ(pairs[end - 1], nodes - 1.0);
+  EXPECT_EQ(pairs[end], nodes);
+  EXPECT_EQ(pairs[pairs.size() - 2], 2.0 * nodes - 1.0);
+  EXPECT_EQ(pairs.back(), nodes);
+  EXPECT_EQ(reader.extent(sheet + "/tension"), (Extent{ 2 * cable.node.size() - 1 }));
+  const std::string xml = file_text(path("open.xdmf"));
+  EXPECT_NE(xml.find("NumberOfElements=\"" + std::to_string(2 * cable.node.size() - 1) + "\""), std::string::npos);
+}
+
+TEST_F(RecorderTest, ClosesTheLineOfAClosedSurface)
+{
+  scene::Frame frame = synthetic_frame(1.0, 1);
+  frame.boundary.back().closed = true;
+  {
+    Recorder recorder(path("roller.h5"), "roller", "");
+    ASSERT_EQ(recorder.write(frame), "");
+  }
+  const Reader reader(path("roller.h5"));
+  const std::vector<double> pairs = reader.numbers("/frames/000000/surface/connectivity");
+  EXPECT_EQ(pairs.size(), 2 * frame.boundary.back().position.size());
+  EXPECT_EQ(pairs.back(), 0.0);
+  EXPECT_EQ(reader.number_attribute("/frames/000000/surface", "closed"), std::vector<double>{ 1.0 });
+  EXPECT_EQ(reader.number_attribute("/frames/000000/hull", "closed"), (std::vector<double>{ 0.0, 0.0 }));
+}
+
+TEST_F(RecorderTest, KeepsTheSamplesOfProbes)
+{
+  scene::Frame frame;
+  const std::vector<double> many(1000, 2.5);  // beyond what fits a header
+  frame.probes = { { "top", "point", { 0.1, 0.2 }, { { "displacement_z", "m", { -1.0, -2.0 } } } },
+                   { "error", "manufactured", {}, { { "rms", "m", {} } } },
+                   { "fast", "body", many, { { "kinetic_energy", "J/m", many } } } };
+  {
+    Recorder recorder(path("probes.h5"), "probes", "");
+    ASSERT_EQ(recorder.write(frame), "");
+    frame.probes[0].time_s = { 0.3 };
+    frame.probes[0].columns[0].values = { -3.0 };
+    ASSERT_EQ(recorder.write(frame), "");
+    ASSERT_EQ(recorder.write(scene::Frame()), "");
+  }
+  const Reader reader(path("probes.h5"));
+  const std::string top = "/frames/000000/probes/top";
+  EXPECT_EQ(reader.text_attribute(top, "kind"), "point");
+  EXPECT_EQ(reader.numbers(top + "/time"), (std::vector<double>{ 0.1, 0.2 }));
+  EXPECT_EQ(reader.text_attribute(top + "/time", "units"), "s");
+  EXPECT_EQ(reader.numbers(top + "/displacement_z"), (std::vector<double>{ -1.0, -2.0 }));
+  EXPECT_EQ(reader.text_attribute(top + "/displacement_z", "units"), "m");
+  EXPECT_EQ(reader.extent("/frames/000000/probes/error/rms"), Extent{ 0 });
+  EXPECT_EQ(reader.numbers("/frames/000000/probes/fast/kinetic_energy"), many);
+  EXPECT_EQ(reader.numbers("/frames/000001/probes/top/displacement_z"), std::vector<double>{ -3.0 });
+  EXPECT_FALSE(reader.has("/frames/000002/probes"));
+}
+
+TEST_F(RecorderTest, ReservesRoomForManyProbes)
+{
+  // HDF5 does not survive a full disk, so what is reserved for a frame must hold it.
+  scene::Frame frame = synthetic_frame(1.0, 1);
+  for (int i = 0; i < 40; ++i) {
+    scene::ProbeFrame probe = frame.probes.front();
+    probe.name = "probe_" + std::to_string(i);
+    for (int k = 0; k < 10; ++k)
+      probe.columns.push_back({ "column_" + std::to_string(k), "m", { 1.0, 2.0 } });
+    frame.probes.push_back(probe);
+  }
+  const auto size = [&] { return std::filesystem::file_size(path("wide.h5")); };
+  std::uintmax_t reserved_end = 0;
+  {
+    Recorder recorder(path("wide.h5"), "wide", "");
+    ASSERT_EQ(recorder.write(frame), "");
+    reserved_end = size();
+  }
+  const std::uintmax_t one_frame = size();
+  {
+    Recorder recorder(path("wide.h5"), "wide", "");
+    ASSERT_EQ(recorder.write(frame), "");
+    ASSERT_EQ(recorder.write(frame), "");
+  }
+  const std::uintmax_t frame_bytes = size() - one_frame;
+  EXPECT_GT(reserved_end - (one_frame - frame_bytes), frame_bytes);
+}
+
 TEST_F(RecorderTest, LeavesOutWhatASceneDoesNotHave)
 {
   scene::Frame frame;

@@ -173,6 +173,31 @@ TEST(Conversions, MarkersKeepIdsCountsAndLifetimeWhileTheContainerMoves)
     EXPECT_TRUE(point.x == 0.0 || point.x == -4.0);
 }
 
+TEST(Conversions, AnOpenSheetsEndsAreNotJoined)
+{
+  scene::Frame frame = small_frame();
+  scene::GeotextileFrame& sheet = frame.geotextile[0];
+  sheet.closed = false;
+  sheet.tension.pop_back();
+  sheet.gauge_tension.pop_back();
+  const geometry_msgs::PolygonStamped shape = to_container_shape(sheet, View());
+  ASSERT_EQ(shape.polygon.points.size(), 4u);  // there: nodes 0, 1, 2; back over node 1
+  EXPECT_EQ(shape.polygon.points[3].y, shape.polygon.points[1].y);
+  EXPECT_EQ(shape.polygon.points[3].z, shape.polygon.points[1].z);
+  EXPECT_EQ(to_geotextile_forces(sheet, View()).utilisation.size(), 2u);
+  const visualization_msgs::MarkerArray array = to_markers(frame, small_progress(), View());
+  EXPECT_EQ(array.markers[0].points.size(), 12u);  // 2 segments of 2 triangles
+}
+
+TEST(Conversions, AClosedSurfacesOutlineIsClosed)
+{
+  scene::Frame frame = small_frame();
+  const std::size_t open = to_markers(frame, small_progress(), View()).markers[1].points.size();
+  frame.boundary[0].closed = true;
+  const std::size_t closed = to_markers(frame, small_progress(), View()).markers[1].points.size();
+  EXPECT_EQ(closed, open + 4u);  // one more piece at both ends of the slice
+}
+
 TEST(Conversions, LegendNamesPeakTensionOutcomeAndRealTimeFactor)
 {
   const visualization_msgs::MarkerArray array = to_markers(small_frame(), small_progress(), View());

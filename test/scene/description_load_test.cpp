@@ -64,7 +64,7 @@ TEST(DescriptionLoad, OverridesAnyKey)
   EXPECT_EQ(scene.bodies.at("fill").shape.hopper_fill->area_m2, 2.5);
   EXPECT_EQ(scene.hull->signal.max_gap_s, 0.25);
   EXPECT_EQ(scene.hull->signal.noise_rad, 0.01);
-  EXPECT_FALSE(scene.numerics.skip_resting);
+  EXPECT_FALSE(scene.numerics.skip_resting.value());
   EXPECT_EQ(scene.grid.faces[0], FaceCondition::fixed);
   EXPECT_EQ(scene.gravity_m_per_s2, Vec2(0.0, -1.62));
   EXPECT_EQ(scene.name, "moon");

@@ -34,7 +34,10 @@ TEST(DescriptionReference, TellsUnitRangeDefaultAndNeed)
   for (const char* row :
        { "| `end_s` | s | a number > 0 | *required* |", "| `time_step_factor` |  | a number in (0, 1] | `0.8` |",
          "## `materials.<name>`", "## `bodies.<name>.shape.hopper_fill`", "## `hull.signal`",
-         "| `law` |  | one of linear_elastic, mohr_coulomb | *required* |", "only with law `mohr_coulomb`" })
+         "| `law` |  | one of linear_elastic, mohr_coulomb, neo_hookean, hencky, newtonian, bingham | *required* |",
+         "only with law `mohr_coulomb`", "| `probe_interval_s` | s | a number > 0 | absent |",
+         "| `between` |  | a list of 2 texts | *required* |", "## `geotextiles.<name>.start`",
+         "| `table` | s, m, m, rad | a list of at least 1 rows [time_s, y, z, angle] | *required* |" })
     EXPECT_NE(page.find(row), std::string::npos) << row;
 }
 

@@ -15,11 +15,12 @@ public:
   /// Particles at most `spacing` (m) apart along `surface` in its reference position; Coulomb coefficient `friction`.
   BoundaryBody(std::string name, Surface surface, double friction, double spacing);
 
-  /// Where the body is at the start and at the end of the step of `dt` seconds.
+  /// Where the body is at the start and at the end of the step of `dt` seconds. Both poses have the same pivot.
   void set_motion(const RigidPose& start, const RigidPose& end, double dt);
 
   const std::string& name() const { return name_; }
   double friction() const { return friction_; }
+  bool closed() const { return surface_.closed(); }
   std::size_t size() const { return reference_.size(); }
   /// Position before any motion, m.
   const Vec2& reference(std::size_t particle) const { return reference_[particle]; }
@@ -34,6 +35,13 @@ public:
   Vec2 normal(std::size_t particle) const { return start_.turn(normal_[particle]); }
   /// Mean velocity over the step of the body at a point, m/s.
   Vec2 velocity_at(const Vec2& point) const { return (end_.apply(start_.invert(point)) - point) * inverse_dt_; }
+  /// Lever of a force at a point that moves with the body, mean over the step: from pivot + shift, m. With it
+  /// force . shift + moment * turn is the work of a step, to the square of the step's turn over 12.
+  Vec2 arm_at(const Vec2& point) const
+  {
+    const Vec2 lever = start_.invert(point) - start_.pivot;
+    return 0.5 * (start_.turn(lever) + end_.turn(lever));
+  }
   /// False only where the surface is certainly further than `reach` (m): a cheap first look.
   bool may_touch(const Vec2& point, double reach) const
   {

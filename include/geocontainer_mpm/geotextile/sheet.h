@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geocontainer_mpm/mpm/grid.h"
@@ -12,8 +13,14 @@
 
 namespace geocontainer_mpm::geotextile {
 
+/// Where a sheet is laid.
+struct SheetLayout {
+  std::vector<Vec2> points;  ///< at least 2 (closed: 3), m
+  bool closed = false;       ///< joined from the last point to the first
+};
+
 struct SheetParameters {
-  double circumference = 0.0;       ///< unstretched length all around, m
+  double unstretched_length = 0.0;  ///< around, or from end to end, m
   double stiffness = 0.0;           ///< J, N/m
   double mass = 0.0;                ///< true mass per area, kg/m^2
   double computational_mass = 0.0;  ///< inertia per area under mass scaling, kg/m^2
@@ -21,28 +28,55 @@ struct SheetParameters {
   double gauge_length = 0.0;        ///< m
 };
 
-/// A closed sheet in plane strain. Node i and node (i + 1) % n bound segment i.
+/// What acts on a sheet beside its own tension, for one step.
+struct SheetLoad {
+  /// On the inner side of a closed sheet, p(z) = pressure + gradient (z_ref - z), Pa; z_ref is `level`, or the highest
+  /// node now. It follows the sheet, its level does not follow the sheet's volume.
+  double pressure = 0.0;
+  double gradient = 0.0;  ///< Pa/m
+  std::optional<double> level;
+  Vec2 start_force = Vec2::Zero(), end_force = Vec2::Zero();  ///< at the ends of an open sheet, N/m
+};
+
+/// One segment as a spring between two nodes, for whoever assembles stiffness.
+struct SheetSegment {
+  std::size_t start, end;  ///< nodes
+  double stiffness;        ///< J / l0, N/m^2: force per width and lengthening
+  bool active;             ///< taut, or so little slack that it may tighten within a step
+};
+
+/// A sheet in plane strain. Segment i goes from node i to the next one; of a closed sheet the last goes back to node 0,
+/// an open one has a node more than segments.
 class Sheet {
 public:
-  /// Laid along the closed `outline`; the unstretched length is spread evenly, so that what exceeds the outline is
-  /// slack everywhere (a shorter one is pre-tension).
-  Sheet(const std::vector<Vec2>& outline, const SheetParameters& parameters);
+  /// Laid along the line, segments of equal length; the unstretched length is spread evenly, so that what exceeds the
+  /// line is slack everywhere (a shorter one is pre-tension).
+  Sheet(const SheetLayout& layout, const SheetParameters& parameters);
 
   mpm::Particles<2>& nodes() { return nodes_; }
   const mpm::Particles<2>& nodes() const { return nodes_; }
+  bool closed() const { return nodes_.size() == segments(); }
   std::size_t segments() const { return rest_length_.size(); }
   Vec2 node(std::size_t i) const { return { nodes_.position[0][i], nodes_.position[1][i] }; }
+  /// Node at the end of a segment; the one at its start has the segment's own number.
+  std::size_t end_of(std::size_t segment) const { return segment + 1 < nodes_.size() ? segment + 1 : 0; }
+  /// As of the last update_forces().
+  SheetSegment segment(std::size_t i) const;
 
-  /// Tension of every segment from the nodes' positions, T = J max(0, l / l0 - 1), and the forces on the nodes.
-  /// Returns whether any segment is taut; if none is, the forces are zero and need no second look.
-  bool update_forces();
+  /// Tension of every segment from the nodes' positions, T = J max(0, l / l0 - 1), and the forces on the nodes, loads
+  /// included. Returns whether there are any; if not, the forces are zero and need no second look.
+  bool update_forces(const SheetLoad& load = {});
 
   const std::vector<double>& tension() const { return tension_; }  ///< per segment, N/m
-  /// Mean tension over the gauge length around each segment's middle, N/m.
+  /// Mean tension over the gauge length around each segment's middle, or what of it an open sheet has there, N/m.
   void gauge_tension(std::vector<double>& result) const;
   double elastic_energy() const;  ///< J/m
   double largest_strain() const;  ///< >= 0
-  double enclosed_area() const;   ///< m^2
+  double length() const;          ///< along the nodes, m
+  double enclosed_area() const;   ///< m^2; of an open sheet 0
+  /// Loads of the last update_forces() times the nodes' present velocities, W/m. The work over a step that kicks for
+  /// the time `kick` is kick times the mean of this before and after the step.
+  double external_power() const;
 
   /// Bound on the square of the largest frequency that the sheet adds to the grid whose nodal masses stand in `grid`,
   /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there. Segments
@@ -50,9 +84,14 @@ public:
   double frequency_bound(const mpm::Grid<2>& grid);
 
 private:
+  void add_pressure(const SheetLoad& load);
+  double twice_signed_area() const;  ///< positive against the clock
+
   SheetParameters parameters_;
   mpm::Particles<2> nodes_;
+  double outwards_ = 0.0;  ///< 1 if the right side of a segment looks outwards, -1 if its left side; open: 0
   std::vector<double> rest_length_, tension_, strain_;
+  std::array<mpm::Column, 2> external_;  ///< of it all, what loads add to the forces, N/m
 
   /// How the weights of one segment's ends differ over the grid nodes that either reaches.
   struct Difference {

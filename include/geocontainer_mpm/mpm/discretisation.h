@@ -34,4 +34,15 @@ struct Discretisation {
   Smoothing smoothing = Smoothing::none;
 };
 
+/// Why these choices do not go together, or nullptr. Everything else does: both smoothings, for instance, serve both
+/// shapes (a B-spline's element is the grid's cell).
+inline const char* refusal(const Discretisation& d)
+{
+  if (!(d.flip_fraction >= 0.0 && d.flip_fraction <= 1.0))
+    return "flip_fraction must be in [0, 1]";
+  if (d.mass == MassMatrix::consistent && d.transfer != Transfer::flip)
+    return "a consistent mass needs the flip transfer: the affine one is built on lumped masses";
+  return nullptr;
+}
+
 }  // namespace geocontainer_mpm::mpm

@@ -39,6 +39,8 @@ public:
   using Node = Eigen::Array<double, 4, 1>;
   using Force = Eigen::Array<double, Dim == 2 ? 2 : 4, 1>;
   static constexpr int mass_slot = 3;
+  /// Nodes with no more mass than this are round-off of stencil ends: they take no part.
+  static constexpr double massless = 1e-300;
   /// Rows of nodes kept beyond each face, for stencils that reach over it.
   static constexpr int margin = 2;
 
@@ -81,6 +83,19 @@ public:
   Force* forces() { return forces_.data(); }
   const Force* forces() const { return forces_.data(); }
 
+  /// A second velocity of every node (first Dim slots): that before the forces (FLIP), or that which moves the
+  /// particles (MUSL). There is no storage for it before the first call of ensure_kept().
+  void ensure_kept();
+  Force* kept() { return kept_.data(); }
+  const Force* kept() const { return kept_.data(); }
+  /// Keeps the velocities that the nodes of the window have now, those beyond the faces with them.
+  void keep_velocities(ThreadTeam& team);
+
+  /// Room of `per_node` numbers a node for work on elements, grown on demand and never cleared. Which belong together
+  /// is up to the user (src/mpm/elements.h).
+  double* element_scratch(std::size_t per_node) { return room(element_scratch_, per_node); }
+  double* node_scratch(std::size_t per_node) { return room(node_scratch_, per_node); }
+
   /// Work on the window is handed to threads in blocks of this many slowest indices.
   static constexpr int rows_per_block = 8;
   static int blocks_of_rows(const Window<Dim>& window)
@@ -113,6 +128,13 @@ public:
   }
 
 private:
+  double* room(std::vector<double>& scratch, std::size_t per_node) const
+  {
+    if (scratch.size() < per_node * size())
+      scratch.resize(per_node * size());
+    return scratch.data();
+  }
+
   double dx_, inverse_dx_;
   Vec<Dim> origin_;
   std::array<int, Dim> counts_{};
@@ -120,6 +142,8 @@ private:
   Window<Dim> window_{};
   std::vector<Node, Eigen::aligned_allocator<Node>> nodes_;
   std::vector<Force, Eigen::aligned_allocator<Force>> forces_;
+  std::vector<Force, Eigen::aligned_allocator<Force>> kept_;
+  std::vector<double> element_scratch_, node_scratch_;
 };
 
 }  // namespace geocontainer_mpm::mpm

@@ -18,25 +18,28 @@ template <int Dim>
 struct Particles {
   static constexpr int stress_size = material::stress_size<Dim>;
 
-  std::array<Column, Dim> position;        ///< m
-  std::array<Column, Dim> velocity;        ///< m/s, at mid-step (leapfrog)
-  std::array<Column, Dim * Dim> affine;    ///< APIC velocity matrix C, row-major, 1/s
-  std::array<Column, Dim * Dim> gradient;  ///< velocity gradient of the last step, row-major dv_i/dx_j, 1/s
-  std::array<Column, stress_size> stress;  ///< Cauchy, see material/law.h for the order, Pa
-  std::array<Column, Dim> force;           ///< external force of the present step (sheets), N (N/m in plane strain)
-  Column mass;                             ///< inertia, kg (kg/m)
-  Column weight_mass;                      ///< what gravity pulls, kg (kg/m); differs under mass scaling
-  Column volume, initial_volume;           ///< m^3 (m^2)
+  std::array<Column, Dim> position;           ///< m
+  std::array<Column, Dim> velocity;           ///< m/s, at mid-step (leapfrog)
+  std::array<Column, Dim * Dim> affine;       ///< APIC velocity matrix C, row-major, 1/s
+  std::array<Column, Dim * Dim> gradient;     ///< velocity gradient of the last step, row-major dv_i/dx_j, 1/s
+  std::array<Column, stress_size> stress;     ///< Cauchy, see material/law.h for the order, Pa
+  std::array<Column, Dim * Dim> deformation;  ///< F, row-major; empty unless use_deformation()
+  std::array<Column, Dim> force;              ///< external force of the present step (sheets), N (N/m in plane strain)
+  Column mass;                                ///< inertia, kg (kg/m)
+  Column weight_mass;                         ///< what gravity pulls, kg (kg/m); differs under mass scaling
+  Column volume, initial_volume;              ///< m^3 (m^2)
   Column separated_strain, elastic_energy, dissipated;  ///< see material::Batch
   std::vector<std::uint32_t> id;                        ///< index at creation: sorting reorders the arrays
 
   std::size_t size() const { return mass.size(); }
-  /// All columns to `count` zeros, ids 0, 1, ...
+  /// All columns to `count` zeros, ids 0, 1, ...; without deformation.
   void resize(std::size_t count);
+  /// For the laws that need it: a deformation gradient for every row, the identity.
+  void use_deformation();
   /// Row i of the result is row `order[i]` of today.
   void permute(const std::vector<std::uint32_t>& order);
   material::Batch<Dim> batch();
-  /// Calls `visit(column)` for every double column: state digests, checkpoints, permutation.
+  /// Calls `visit(column)` for every double column that is in use: state digests, checkpoints, permutation.
   template <class Visitor>
   void for_each_column(Visitor&& visit)
   {
@@ -49,6 +52,8 @@ struct Particles {
     all(affine);
     all(gradient);
     all(stress);
+    if (!deformation[0].empty())
+      all(deformation);
     all(force);
     for (Column* column :
          { &mass, &weight_mass, &volume, &initial_volume, &separated_strain, &elastic_energy, &dissipated })

@@ -58,43 +58,58 @@ inline Reach<Dim, most_nodes<Dim>> bspline_reach(const Vec<Dim>& point, const Gr
   return reach;
 }
 
-/// The Dim + 1 nodes of the linear simplex around a point. Every cell is cut along the order of a point's fractional
-/// coordinates (Freudenthal 1942; Kuhn 1960): triangles 2, tetrahedra 6 a cell. Cells of odd index are mirrored, so
-/// that neighbouring diagonals form a union jack and no direction is preferred.
+/// The linear simplex around a point. Every cell is cut along the order of a point's fractional coordinates
+/// (Freudenthal 1942; Kuhn 1960): triangles 2, tetrahedra 6 a cell. Cells of odd index are mirrored, so that
+/// neighbouring diagonals form a union jack and no direction is preferred. From node `start` its nodes follow one
+/// another by `step` along order[0], order[1], ...
 template <int Dim>
-inline Reach<Dim, Dim + 1> simplex_reach(const Vec<Dim>& point, const Grid<Dim>& grid)
+struct Simplex {
+  std::array<int, Dim> cell;           ///< lowest node of the cell
+  std::array<int, Dim> start, step;    ///< step: 1, or -1 where mirrored
+  std::array<double, Dim> fraction;    ///< distance from `start` along the step, in cells, [0, 1]
+  std::array<std::size_t, Dim> order;  ///< largest fraction first
+};
+
+template <int Dim>
+inline Simplex<Dim> simplex_around(const Vec<Dim>& point, const Grid<Dim>& grid)
 {
-  std::array<int, Dim> node, step;
-  std::array<double, Dim> f;
-  std::array<std::size_t, Dim> order;
+  Simplex<Dim> s;
   for (std::size_t d = 0; d < Dim; ++d) {
     const auto c = static_cast<Eigen::Index>(d);
     const double xi = (point[c] - grid.origin()[c]) * grid.inverse_dx();
     const double cell = std::floor(xi);
-    const int index = static_cast<int>(cell);
-    const bool mirrored = (index & 1) != 0;
-    f[d] = mirrored ? 1.0 - (xi - cell) : xi - cell;
-    node[d] = mirrored ? index + 1 : index;
-    step[d] = mirrored ? -1 : 1;
-    order[d] = d;
+    s.cell[d] = static_cast<int>(cell);
+    const bool mirrored = (s.cell[d] & 1) != 0;
+    s.fraction[d] = mirrored ? 1.0 - (xi - cell) : xi - cell;
+    s.start[d] = mirrored ? s.cell[d] + 1 : s.cell[d];
+    s.step[d] = mirrored ? -1 : 1;
+    s.order[d] = d;
   }
-  for (std::size_t i = 1; i < Dim; ++i)  // largest fraction first; insertion sort, stable
-    for (std::size_t k = i; k > 0 && f[order[k]] > f[order[k - 1]]; --k)
-      std::swap(order[k], order[k - 1]);
+  for (std::size_t i = 1; i < Dim; ++i)  // insertion sort, stable
+    for (std::size_t k = i; k > 0 && s.fraction[s.order[k]] > s.fraction[s.order[k - 1]]; --k)
+      std::swap(s.order[k], s.order[k - 1]);
+  return s;
+}
 
+/// The Dim + 1 nodes of the linear simplex around a point.
+template <int Dim>
+inline Reach<Dim, Dim + 1> simplex_reach(const Vec<Dim>& point, const Grid<Dim>& grid)
+{
+  const Simplex<Dim> s = simplex_around<Dim>(point, grid);
+  std::array<int, Dim> node = s.start;
   Reach<Dim, Dim + 1> reach;
   reach.count = Dim + 1;
   for (std::size_t k = 0; k <= Dim; ++k) {
     if (k > 0)
-      node[order[k - 1]] += step[order[k - 1]];
-    const double high = k == 0 ? 1.0 : f[order[k - 1]], low = k == Dim ? 0.0 : f[order[k]];
+      node[s.order[k - 1]] += s.step[s.order[k - 1]];
+    const double high = k == 0 ? 1.0 : s.fraction[s.order[k - 1]], low = k == Dim ? 0.0 : s.fraction[s.order[k]];
     reach.node[k] = static_cast<std::uint32_t>(grid.index(node));
     reach.weight[k] = high - low;
     reach.gradient[k].setZero();
     if (k > 0)
-      reach.gradient[k][static_cast<Eigen::Index>(order[k - 1])] += step[order[k - 1]] * grid.inverse_dx();
+      reach.gradient[k][static_cast<Eigen::Index>(s.order[k - 1])] += s.step[s.order[k - 1]] * grid.inverse_dx();
     if (k < Dim)
-      reach.gradient[k][static_cast<Eigen::Index>(order[k])] -= step[order[k]] * grid.inverse_dx();
+      reach.gradient[k][static_cast<Eigen::Index>(s.order[k])] -= s.step[s.order[k]] * grid.inverse_dx();
   }
   return reach;
 }
@@ -107,11 +122,13 @@ inline AnyReach<Dim> reach_of(Shape shape, const Vec<Dim>& point, const Grid<Dim
     return bspline_reach<Dim>(point, grid);
   const Reach<Dim, Dim + 1> few = simplex_reach<Dim>(point, grid);
   AnyReach<Dim> reach;
+  reach.gradient.fill(Vec<Dim>::Zero());
   reach.count = few.count;
-  for (std::size_t k = 0; k <= Dim; ++k) {
-    reach.node[k] = few.node[k];
-    reach.weight[k] = few.weight[k];
-    reach.gradient[k] = few.gradient[k];
+  for (std::size_t k = 0; k < most_nodes<Dim>; ++k) {
+    const bool there = k <= Dim;
+    reach.node[k] = few.node[there ? k : 0];
+    reach.weight[k] = there ? few.weight[k] : 0.0;
+    reach.gradient[k] = few.gradient[there ? k : 0] * (there ? 1.0 : 0.0);
   }
   return reach;
 }

@@ -34,6 +34,7 @@ ros::Time to_time(std::int64_t stamp_ns, const ros::Time& before_first_sample);
 std::string first_non_finite(const scene::Frame& frame);
 std::string first_non_finite(const Progress& progress);
 
+/// The outline of a closed sheet; an open one goes there and back, since a polygon joins its ends.
 geometry_msgs::PolygonStamped to_container_shape(const scene::GeotextileFrame& sheet, const View& view);
 GeotextileForces to_geotextile_forces(const scene::GeotextileFrame& sheet, const View& view);
 

@@ -4,7 +4,6 @@
 /// barge frame (`base_link`: hinge axis midships, y to port, z up). Compression is negative, tension is N/m.
 
 #include <array>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,18 +14,9 @@
 #include "geocontainer_mpm/mpm/discretisation.h"
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/types.h"
+#include "geocontainer_mpm/scene/time_table.h"
 
 namespace geocontainer_mpm::scene {
-
-/// One row of a table over time: time, s, and values. Between rows the values are interpolated linearly; before the
-/// first and after the last row they stay.
-template <int Count>
-struct TableRow {
-  double time_s = 0.0;
-  std::array<double, Count> value{};
-};
-template <int Count>
-using TimeTable = std::vector<TableRow<Count>>;  ///< times strictly ascending; empty: not given
 
 struct TimeDescription {
   double end_s = 0.0;              ///< simulated time at which the run is complete, s, > 0
@@ -48,12 +38,13 @@ struct GridDescription {
 };
 
 struct NumericsDescription {
-  mpm::Discretisation method;           ///< shape, transfer, flip_fraction, mass, update, smoothing
-  double time_step_factor = 0.8;        ///< fraction of the stability bound that a step may use, (0, 1]
-  double max_step_s = 0.01;             ///< upper bound of a step, s, > 0
-  double max_travel_cells = 0.25;       ///< furthest a particle may move in a step, cells, (0, 0.5]
-  double damping_per_s = 0.0;           ///< mass-proportional damping of the live run, 1/s, >= 0; 0 for physics
-  bool skip_resting = true;             ///< no steps while nothing moves
+  mpm::Discretisation method;      ///< shape, transfer, flip_fraction, mass, update, smoothing
+  double time_step_factor = 0.8;   ///< fraction of the stability bound that a step may use, (0, 1]
+  double max_step_s = 0.01;        ///< upper bound of a step, s, > 0
+  double max_travel_cells = 0.25;  ///< furthest a particle may move in a step, cells, (0, 0.5]
+  double damping_per_s = 0.0;      ///< mass-proportional damping of the live run, 1/s, >= 0; 0 for physics
+  /// No steps while nothing moves; not given: in a scene with a hull.
+  std::optional<bool> skip_resting;
   double rest_velocity_m_per_s = 2e-3;  ///< root-mean-square velocity below which a body counts as resting, m/s, > 0
   double rest_time_s = 0.5;             ///< how long it must stay below, s, > 0
   int max_halvings = 6;                 ///< how often a step that went wrong is halved before the run ends, [0, 20]
@@ -110,14 +101,26 @@ struct ManufacturedDescription {
   Vec2 origin_m = Vec2::Zero();  ///< lower corner of the unit square, or centre of the ring, m
 };
 
+/// A sine over space: v = amplitude sin(wave_number . X + phase). The modes of bars and strings.
+struct VelocityWave {
+  Vec2 amplitude_m_per_s = Vec2::Zero();
+  Vec2 wave_number_rad_per_m = Vec2::Zero();
+  double phase_rad = 0.0;
+};
+
+/// What the velocity field is called of bodies and sheets that name none.
+inline constexpr const char* common_field = "common";
+
 struct BodyDescription {
   std::string material;  ///< a key of `materials`
   ShapeDescription shape;
   int particles_per_cell = 2;  ///< in each direction, 1 to 4
   /// Bodies that name the same field move in one velocity field and stick together where they meet. Fields touch by
-  /// `contacts`. Empty: the common field, called `common`.
+  /// `contacts`. Empty: the common field.
   std::string velocity_field;
   Vec2 initial_velocity_m_per_s = Vec2::Zero();
+  double initial_spin_rad_per_s = 0.0;                ///< about the middle of the body's mass, from y towards z
+  std::optional<VelocityWave> initial_velocity_wave;  ///< on top of both
   InitialStress initial_stress = InitialStress::none;
   double k0 = 0.5;                                      ///< horizontal over vertical stress for k0 and gravity, [0, 2]
   std::optional<ManufacturedDescription> manufactured;  ///< needs law neo_hookean and no gravity
@@ -130,7 +133,7 @@ struct Region {
 
 /// Grid nodes in a region that do not move, or move as prescribed, whatever is on them.
 struct SupportDescription {
-  Region region;                        ///< nodes within, edges included
+  Region region;                        ///< nodes within, edges included (1e-6 cells); may be a line or a node
   bool holds_y = true, holds_z = true;  ///< at least one
   TimeTable<2> velocity_table;          ///< [t, v_y, v_z], m/s; empty: still
 };
@@ -181,20 +184,21 @@ struct GeotextileDescription {
   std::optional<Disc> circle;  ///< closed, along a circle
   // At most one of these three says how long it is unstretched; none: as long as its path. The difference is spread
   // evenly.
-  double circumference_m = 0.0;              ///< unstretched length around, or from end to end
+  std::optional<double> circumference_m;     ///< unstretched length around, or from end to end, m
   std::optional<double> slack;               ///< unstretched length over that of the path, less 1, >= 0
   std::optional<double> pretension_n_per_m;  ///< tension in the path as laid, >= 0
   SheetEnd start, end;                       ///< of an open line
   std::optional<InsidePressure> inside_pressure;
-  std::string velocity_field;                    ///< of a free sheet; an enclosing one moves with its body
-  Vec2 initial_velocity_m_per_s = Vec2::Zero();  ///< of a free sheet
-  double stiffness_n_per_m = 0.0;                ///< J (warp), force per width and strain, > 0
-  double mass_kg_per_m2 = 0.0;                   ///< true mass: what gravity pulls, > 0
-  double computational_mass_kg_per_m2 = 0.0;     ///< inertia used (mass scaling), >= true mass
-  double strength_n_per_m = 0.0;                 ///< tensile strength of the sheet (warp), > 0
-  double seam_efficiency = 0.85;                 ///< strength of a seam over the sheet's, (0, 1]
-  double segment_length_m = 0.0;                 ///< wanted length of a membrane segment, > 0; about a cell
-  double gauge_length_m = 0.5;                   ///< reported tension is the mean over this length, >= segment length
+  std::string velocity_field;                         ///< of a free sheet; an enclosing one moves with its body
+  Vec2 initial_velocity_m_per_s = Vec2::Zero();       ///< of a free sheet
+  std::optional<VelocityWave> initial_velocity_wave;  ///< of a free sheet, on top
+  double stiffness_n_per_m = 0.0;                     ///< J (warp), force per width and strain, > 0
+  double mass_kg_per_m2 = 0.0;                        ///< true mass: what gravity pulls, > 0
+  double computational_mass_kg_per_m2 = 0.0;          ///< inertia used (mass scaling), >= true mass
+  double strength_n_per_m = 0.0;                      ///< tensile strength of the sheet (warp), > 0
+  double seam_efficiency = 0.85;                      ///< strength of a seam over the sheet's, (0, 1]
+  double segment_length_m = 0.0;                      ///< wanted length of a membrane segment, > 0; about a cell
+  double gauge_length_m = 0.5;  ///< reported tension is the mean over this length, >= segment length
 };
 
 /// One opening row of a table: time, s, and both angles, rad.
@@ -268,8 +272,8 @@ struct SceneDescription {
   GridDescription grid;
   NumericsDescription numerics;
   std::map<std::string, material::Parameters> materials;
-  std::map<std::string, BodyDescription> bodies;             ///< at least one
-  std::map<std::string, GeotextileDescription> geotextiles;  ///< each around its own body
+  std::map<std::string, BodyDescription> bodies;             ///< at least one body or geotextile
+  std::map<std::string, GeotextileDescription> geotextiles;  ///< around a body each, or free
   std::optional<HullDescription> hull;
   std::map<std::string, SurfaceDescription> surfaces;  ///< the bed and other rigid surfaces
   std::map<std::string, SupportDescription> supports;
@@ -277,6 +281,12 @@ struct SceneDescription {
   std::map<std::string, ContactDescription> contacts;  ///< between velocity fields
   std::map<std::string, ProbeDescription> probes;
   OutcomeDescription outcome;
+
+  /// Gravity at an instant, from whichever of the two is given.
+  Vec2 gravity_at(double time_s) const;
+
+  /// Names of the velocity fields that bodies and free sheets move in, in order.
+  std::vector<std::string> velocity_fields() const;
 
   /// Throws InputError naming `source`, the dotted key, its value and what is allowed.
   void validate() const;

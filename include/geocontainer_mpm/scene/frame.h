@@ -30,9 +30,11 @@ struct SoilFrame {
   std::vector<double> volume;                 ///< current volume per unit width, m^2
 };
 
-/// One closed sheet: node i and node (i + 1) % n bound segment i.
+/// One sheet: node i and node i + 1 bound segment i. Closed: the last segment joins the last node to the first; open:
+/// there is one segment less than nodes.
 struct GeotextileFrame {
   std::string name;
+  bool closed = true;
   std::vector<Vec2> node;             ///< m, in order along the sheet
   std::vector<Vec2> velocity;         ///< m/s
   std::vector<double> tension;        ///< per segment, raw, N/m, >= 0
@@ -46,7 +48,8 @@ struct GeotextileFrame {
 struct BoundaryFrame {
   std::string name;                   ///< `hull_port`, `hull_starboard`, or the surface's key
   std::vector<Vec2> position;         ///< boundary particles, in order along the section, m
-  double angle_rad = 0.0;             ///< rotation about the hinge, opening positive
+  bool closed = false;                ///< joined from the last particle to the first
+  double angle_rad = 0.0;             ///< rotation about hinge or pivot: a hull half opening positive, else about +x
   Vec2 force_n_per_m = Vec2::Zero();  ///< what the bodies press on it, mean over the output interval, N/m
 };
 
@@ -60,6 +63,7 @@ struct EnergyFrame {
   double dissipated_contact = 0.0;
   double dissipated_transfer = 0.0;     ///< lost by the particle-grid transfer: numerical
   double work_in = 0.0;                 ///< done on the material by moving boundaries, since the start
+  double unbalanced = 0.0;              ///< change + dissipated - work in: energy from nowhere, since the start
   double relative_balance_error = 0.0;  ///< |change + dissipated - work in| over all energy that changed hands
 };
 
@@ -78,6 +82,19 @@ struct StatusFrame {
   double soil_volume_initial_m2 = 0.0;
 };
 
+/// What one probe measured since the frame before.
+struct ProbeFrame {
+  struct Column {
+    std::string name;            ///< a name of an HDF5 data set, not `time`
+    std::string unit;            ///< `1` for a number without
+    std::vector<double> values;  ///< one a sample
+  };
+  std::string name;            ///< the probe's key in the scene
+  std::string kind;            ///< point, body, section, geotextile, surface, manufactured
+  std::vector<double> time_s;  ///< of the samples, ascending
+  std::vector<Column> columns;
+};
+
 struct Frame {
   double time_s = 0.0;        ///< simulation time
   std::int64_t stamp_ns = 0;  ///< the same in the log's epoch
@@ -89,6 +106,7 @@ struct Frame {
   std::vector<BoundaryFrame> boundary;
   EnergyFrame energy;
   StatusFrame status;
+  std::vector<ProbeFrame> probes;
 };
 
 }  // namespace geocontainer_mpm::scene

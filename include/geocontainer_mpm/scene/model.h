@@ -1,38 +1,77 @@
 #pragma once
-/// The mechanical model of a scene: bodies, sheets and boundary bodies on one grid, and the MPM step that moves them.
-/// Knows nothing of logs, outputs or outcomes; see simulation.h for those.
+/// The mechanical model of a scene: bodies, sheets and boundary bodies on the grids of their velocity fields, and the
+/// MPM step that moves them. Knows nothing of logs, outputs or outcomes; see simulation.h for those.
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geocontainer_mpm/contact/contact_solver.h"
+#include "geocontainer_mpm/contact/field_contact.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
+#include "geocontainer_mpm/mpm/frequency_bound.h"
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/grid_update.h"
 #include "geocontainer_mpm/mpm/sorting.h"
+#include "geocontainer_mpm/mpm/transfer.h"
+#include "geocontainer_mpm/scene/boundary_loads.h"
 #include "geocontainer_mpm/scene/description.h"
+#include "geocontainer_mpm/scene/manufactured.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
 namespace geocontainer_mpm::scene {
 
 struct Body {
   std::string name;
+  std::size_t field = 0;  ///< index of its velocity field
   mpm::Particles<2> particles;
   mpm::Strips strips;
+  std::vector<std::uint32_t> row;  ///< where the particle with an id stands
   std::shared_ptr<const material::Law<2>> law;
-  double constrained_modulus = 0.0, shear_modulus = 0.0;  ///< Pa, bound the wave speeds
-  bool enclosed = false;                                  ///< a sheet is its surface
+  mpm::Moduli elastic, viscous;  ///< of the unstrained material; viscous: any multiple of it
+  mpm::StressDamping damping;
+  bool enclosed = false;  ///< a sheet is its surface
+  std::shared_ptr<const Manufactured> manufactured;
+  std::shared_ptr<const std::vector<Vec2>> start;  ///< positions at the start by id, m
+
+  Vec2 position(std::size_t p) const { return { particles.position[0][p], particles.position[1][p] }; }
+  Vec2 velocity(std::size_t p) const { return { particles.velocity[0][p], particles.velocity[1][p] }; }
+  /// dv_i/dx_j of the last step, 1/s.
+  Mat2 gradient(std::size_t p) const
+  {
+    Mat2 gradient;
+    gradient << particles.gradient[0][p], particles.gradient[1][p], particles.gradient[2][p], particles.gradient[3][p];
+    return gradient;
+  }
 };
 
-struct EnclosingSheet {
+struct ModelSheet {
   std::string name;
+  std::size_t field = 0;
   geotextile::Sheet sheet;
+};
+
+/// A point of a body that is watched. It is carried by the particle nearest to it at the start: on the surface the
+/// grid's own velocity field is extrapolated, and a free point would drift off.
+struct Tracer {
+  std::size_t body;
+  std::uint32_t owner;  ///< id of the particle
+  Vec2 offset;          ///< from it; follows its deformation, m
+  Vec2 position;        ///< m
+  Vec2 velocity;        ///< of the last step, by its way: with FLIP particles have another, m/s
+};
+
+/// What a boundary body has done to the material since the start, per unit width.
+struct BoundaryTotal {
+  Vec2 impulse = Vec2::Zero();  ///< N s / m
+  double moment = 0.0;          ///< about its pivot, N s
+  double work = 0.0;            ///< J/m
 };
 
 /// Energies that changed hands since the ledger was opened, per unit width, J/m, and what momentum did.
 struct Ledger {
-  double contact = 0.0, transfer = 0.0, faces = 0.0, damped = 0.0, work_in = 0.0;
+  double contact = 0.0, transfer = 0.0, faces = 0.0, damped = 0.0, material_damping = 0.0, work_in = 0.0;
   double plastic_at_start = 0.0, kinetic_at_start = 0.0, elastic_at_start = 0.0, potential_at_start = 0.0;
   double momentum_error = 0.0, momentum_exchanged = 0.0;  ///< N s / m, summed over steps away from faces
 };
@@ -43,81 +82,173 @@ struct StepStatus {
   Failure failure;
 };
 
+/// One step: when, how long, and where the boundary bodies are at both ends, in the order of Model::boundaries().
+struct StepInput {
+  double time_s, dt_s;
+  std::vector<contact::RigidPose> start, end;
+  double damping_per_s;
+};
+
+/// Everything that steps change.
+struct ModelState {
+  std::vector<Body> bodies;
+  std::vector<ModelSheet> sheets;
+  std::vector<Traction> tractions;
+  std::vector<Tracer> tracers;
+  std::vector<contact::ContactSolver> contact;  ///< per field
+  std::vector<BoundaryTotal> boundary_totals;
+  Ledger ledger;
+  SkippedCounts skipped;
+  StepStatus health;
+  Vec2 gravity = Vec2::Zero();  ///< of the last step, m/s^2
+  double kinetic = 0.0;         ///< on the grids after the last step, J/m
+  bool kinetic_known = false;
+  double last_dt = 0.0;             ///< s
+  double fastest = 0.0;             ///< m/s
+  double travel_since_sort = 0.0;   ///< m
+  double travel_since_bound = 0.0;  ///< m, since the stability bound was last assembled
+  int steps_since_bound = 0;
+  std::size_t bound_active_segments = 0;  ///< of sheets, then
+  bool bound_known = false;
+  double bound_dt = 0.0;  ///< s, by that bound
+  bool sorted = false;
+};
+
 class Model {
 public:
   /// Bodies, sheets and boundaries as described; throws InputError for what only building can find out.
   Model(const SceneDescription& scene, int threads);
 
-  /// Longest stable step from the present state, s. Transfers to the grid on the way; idempotent until step().
-  double stable_dt();
-  /// One step of `dt` (at most stable_dt()). `start` and `end`: poses of the boundary bodies, in their order.
-  StepStatus step(double dt, const std::vector<contact::RigidPose>& start, const std::vector<contact::RigidPose>& end,
-                  double damping_per_s);
+  /// Longest step that may be taken from the present state, s. Transfers to the grids on the way; idempotent until
+  /// step().
+  double stable_dt(double time_s);
+  /// One step of at most stable_dt(). After a step that went wrong the state is not to be trusted: restore() another.
+  StepStatus step(const StepInput& input);
   /// While held, nothing that touches a boundary slides on it, whatever its friction.
-  void hold(bool held) { contact_.hold(held); }
+  void hold(bool held);
   /// Takes all velocity away: the model sleeps, and wakes from standstill.
   void stop_motion();
   /// Ends the initial settling: the ledger, counters and plastic work start from here.
   void open_ledger();
 
-  const std::vector<Body>& bodies() const { return bodies_; }
-  const std::vector<EnclosingSheet>& sheets() const { return sheets_; }
+  const ModelState& state() const { return now_; }
+  void restore(const ModelState& state);
+
+  const std::vector<Body>& bodies() const { return now_.bodies; }
+  const std::vector<ModelSheet>& sheets() const { return now_.sheets; }
   const std::vector<contact::BoundaryBody>& boundaries() const { return boundaries_; }
-  /// What each boundary body did in the last step.
-  const std::vector<contact::BoundaryImpulse>& boundary_impulses() const { return impulses_; }
   /// Index of the first hull half in boundaries() (port, then starboard), or -1.
   int hull_index() const { return hull_index_; }
+  /// A new tracer at a point of a body, before the first step; its index.
+  std::size_t add_tracer(std::size_t body, const Vec2& at);
 
-  double rms_velocity() const;           ///< by mass, of the last step, m/s
-  Vec2 centroid() const;                 ///< of the bodies, by mass, m
-  double soil_mass() const;              ///< kg/m
-  double fundamental_frequency() const;  ///< rough lowest frequency of the bodies, rad/s: for settling
+  double rms_velocity() const;     ///< by mass, of the last step, m/s
+  Vec2 centroid() const;           ///< of the bodies (of the sheets where there are none), by mass, m
+  double soil_mass() const;        ///< kg/m
+  double fundamental_frequency();  ///< rough lowest frequency of the bodies, rad/s: for settling
   EnergyFrame energy() const;
   double momentum_error() const;
   std::uint64_t digest() const;
-  const SkippedCounts& skipped() const { return skipped_; }
+  /// Sentence on what is fastest: particle, body, place; for reports of a run that went wrong.
+  Failure fastest() const;
   const StageTimes& stages() const { return stages_; }
 
 private:
+  /// One velocity field: what moves on one grid.
+  struct Field {
+    Field(std::string field_name, mpm::Grid<2> field_grid) : name(std::move(field_name)), grid(std::move(field_grid)) {}
+
+    std::string name;
+    mpm::Grid<2> grid;
+    mpm::GridUpdate<2> update;
+    mpm::FrequencyBound<2> bound;
+    Vec2 extent_lower = Vec2::Zero(), extent_upper = Vec2::Zero();  ///< of its particles, m
+    std::vector<contact::ContactPoints> all_points;                 ///< scratch of step()
+    std::vector<contact::ContactPoints> points;                     ///< scratch of step()
+    contact::ContactImpulses impulses;
+    std::vector<contact::Anchor> anchors;
+  };
+  /// Contact of two fields.
+  struct FieldPair {
+    std::size_t a, b;
+    double friction;
+    contact::FieldContact contact;
+  };
+  /// An end of an open sheet that is held, or led.
+  struct HeldEnd {
+    std::size_t sheet, node;
+    Vec2 place;           ///< at the start, m
+    TimeTable<2> motion;  ///< displacement over time, m
+  };
+
+  void build_fields(const SceneDescription& scene);
   void build_bodies(const SceneDescription& scene);
   void build_sheets(const SceneDescription& scene);
   void build_boundaries(const SceneDescription& scene);
+  void build_loads(const SceneDescription& scene);
+  std::size_t field_index(const std::string& name) const;
+
+  // model.cpp: one step
+  Vec2 gravity_at(double time_s) const;
+  void sort_particles();
+  void open_grids();
+  void transfer_to_grid(double time_s);
+  void apply_forces(const StepInput& input, double kick);
+  void collect_points();
+  void solve_contact(const StepInput& input, double kick);
+  void collect_anchors(const StepInput& input, std::size_t field);
+  void hold_nodes(const StepInput& input, double kick);
+  // model_transfer.cpp: particles and grids
+  void load_particles(double time_s);
+  void scatter(mpm::Part part);
+  void add_tractions(double time_s);
+  void assemble_mass();
+  double load_power(double time_s) const;
+  void stress_first(double dt);
+  void move_particles(double dt);
+  void map_back();
+  void smooth_gradients();
+  void gather_bodies(mpm::Gather what, double dt);
+  void gather_sheets(mpm::Gather what, double dt);
+  void move_tracers(double dt);
+  void update_stress(double dt);
+  // model_survey.cpp: is all well, and how long may the next step be
   void survey();
-  void transfer_to_grid();
+  bool bound_holds() const;
+  std::size_t active_segments() const;
+  void assemble_bound(std::size_t field);
+  void bound_time_step();
+  // model_balance.cpp: sums
   double elastic_energy() const;
   double potential_energy() const;
-  double gravity_power() const;
+  double gravity_power(const Vec2& gravity) const;
   double plastic_work() const;
+  double damping_power() const;
 
   std::shared_ptr<mpm::ThreadTeam> team_;  ///< shared by copies of the model: one steps at a time
-  Vec2 gravity_;
+  mpm::Discretisation method_;
+  Vec2 constant_gravity_;
+  TimeTable<2> gravity_table_;
+  std::vector<GeotextileDescription> sheet_descriptions_;  ///< in the order of the sheets
+  std::vector<HeldEnd> held_ends_;
+  std::vector<SupportDescription> supports_;
   double time_step_factor_, max_step_, max_travel_;
   Vec2 lower_, upper_;
-  mpm::Grid<2> grid_;
-  mpm::GridUpdate<2> update_;
   mpm::Sorter<2> sorter_;
-  contact::ContactSolver contact_;
-  std::vector<Body> bodies_;
-  std::vector<EnclosingSheet> sheets_;
+  std::vector<Field> fields_;
+  std::vector<FieldPair> pairs_;
   std::vector<contact::BoundaryBody> boundaries_;
-  std::vector<contact::BoundaryImpulse> impulses_;
-  std::vector<contact::ContactPoints> points_;  ///< scratch of step()
+  std::vector<std::size_t> traction_body_;  ///< per traction, the index of its body
   int hull_index_ = -1;
-
-  // From the last survey of the particles.
-  Vec2 extent_lower_ = Vec2::Zero(), extent_upper_ = Vec2::Zero();
-  double fastest_ = 0.0;  ///< m/s
-  StepStatus health_;
-
-  double travel_since_sort_ = 0.0;  ///< m
-  bool sorted_ = false, on_grid_ = false;
-  double stable_dt_ = 0.0, last_dt_ = 0.0;
-  double kinetic_ = 0.0;  ///< on the grid after the last step, J/m
-  bool kinetic_known_ = false;
   double weight_mass_ = 0.0;  ///< what gravity pulls in all, kg/m
   double inertia_ = 0.0;      ///< all mass, kg/m
-  Ledger ledger_;
-  SkippedCounts skipped_;
+
+  ModelState now_;
+  bool on_grid_ = false;
+  double stable_dt_ = 0.0;
+  double load_power_before_ = 0.0;  ///< of loads on the velocity before the step, W/m
+  Vec2 load_sum_ = Vec2::Zero();    ///< of all loads but gravity, N/m
+  bool away_from_faces_ = true;     ///< no face or support acted in this step
   StageTimes stages_;
 };
 

@@ -3,26 +3,37 @@
 
 #include <vector>
 
+#include "geocontainer_mpm/geotextile/sheet.h"
 #include "geocontainer_mpm/scene/description.h"
 
 namespace geocontainer_mpm::scene {
 
-/// Points that stand for equal parts of a shape.
+/// Points that stand for parts of a shape.
 struct Sampling {
-  std::vector<Vec2> points;  ///< m
-  double volume = 0.0;       ///< of each, per unit width, m^2: points x volume is the area of the shape
+  std::vector<Vec2> points;     ///< m
+  std::vector<double> volumes;  ///< of each, per unit width, m^2: their sum is the area of the shape
 };
 
-/// Closed outline, counter-clockwise (y to the right, z up), m. A disc becomes a polygon with sides of about
-/// `resolution` m. `hull` is needed by hopper_fill alone. Throws InputError when the hopper cannot hold the wanted
-/// area.
+/// Closed outline, counter-clockwise (y to the right, z up), m; of a ring the outer one. A circle becomes a polygon
+/// with sides of about `resolution` m. `hull` is needed by hopper_fill alone. Throws InputError when the hopper cannot
+/// hold the wanted area.
 std::vector<Vec2> outline(const ShapeDescription& shape, const std::optional<HullDescription>& hull, double resolution);
 
 /// Signed area of a closed polygon, counter-clockwise positive, m^2.
 double polygon_area(const std::vector<Vec2>& polygon);
 
-/// Particles on a square lattice, about `spacing` m apart. A box is filled exactly, in its own axes.
+/// All closed lines that bound a shape, material on the left walking along each: the outline, and the hole of a ring.
+std::vector<std::vector<Vec2>> boundary_lines(const ShapeDescription& shape, const std::optional<HullDescription>& hull,
+                                              double resolution);
+
+/// Particles about `spacing` m apart: a box is filled exactly, in its own axes; disc and ring by circles of particles,
+/// so that their edge is round; other shapes on a square lattice.
 Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline, double spacing);
+
+/// Path of a sheet: around its body, along its line or its circle.
+geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene);
+/// Its length without tension, m, from whatever the description says of it.
+double unstretched_length(const GeotextileDescription& sheet, const geotextile::SheetLayout& layout);
 
 /// Highest z of the closed polygon at this y; -infinity beside it.
 double top_at(const std::vector<Vec2>& polygon, double y);

@@ -31,7 +31,7 @@ struct SkippedCounts {
 
 /// Wall-clock seconds by stage, summed over steps.
 struct StageTimes {
-  double p2g_s = 0.0, forces_s = 0.0, contact_s = 0.0, membrane_s = 0.0, g2p_s = 0.0, material_s = 0.0;
+  double p2g_s = 0.0, forces_s = 0.0, contact_s = 0.0, membrane_s = 0.0, g2p_s = 0.0, material_s = 0.0, bound_s = 0.0;
 };
 
 struct RunCounters {
@@ -39,6 +39,7 @@ struct RunCounters {
   std::uint64_t steps = 0;
   double simulated_time_s = 0.0;
   double min_dt_s = 0.0, max_dt_s = 0.0;
+  std::uint64_t retries = 0;    ///< how often steps were undone and taken again at half the length
   double momentum_error = 0.0;  ///< |momentum change - impulse of all forces| over the impulse that changed hands
   SkippedCounts skipped;
   StageTimes stages;
@@ -80,6 +81,8 @@ public:
   StatusFrame status() const;  ///< the cheap part of frame()
   EnergyFrame energy() const;
   RunCounters counters() const;
+  /// What the scene's probes have measured since the start.
+  const std::vector<ProbeFrame>& probes() const;
   const Failure& failure() const;  ///< meaningful after Advance::stopped
   /// 64-bit digest of the mechanical state (positions, velocities, stresses, tensions): equal bits, equal digest. Time
   /// is left out, so that a state at rest has one digest.

@@ -1,0 +1,158 @@
+#include "geocontainer_mpm/scene/boundary_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geocontainer_mpm/mpm/reach.h"
+#include "geocontainer_mpm/mpm/transfer.h"
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+/// What counts as on the edge of a region, cells or pieces: positions come from decimal text.
+constexpr double edge_tolerance = 1e-6;
+
+bool within(const Region& region, const Vec2& point, double tolerance)
+{
+  return (point.array() >= region.lower_m.array() - tolerance).all() &&
+         (point.array() <= region.upper_m.array() + tolerance).all();
+}
+
+std::uint32_t nearest_particle(const mpm::Particles<2>& particles, const Vec2& point)
+{
+  std::size_t best = 0;
+  double best_square = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double square = (Vec2(particles.position[0][p], particles.position[1][p]) - point).squaredNorm();
+    if (square < best_square) {
+      best = p;
+      best_square = square;
+    }
+  }
+  return particles.id[best];
+}
+
+double factor_at(const TimeTable<1>& table, double time_s)
+{
+  return table.empty() ? 1.0 : value_at<1>(table, time_s)[0];
+}
+
+Mat2 gradient_of(const mpm::Particles<2>& particles, std::size_t p)
+{
+  Mat2 gradient;
+  gradient << particles.gradient[0][p], particles.gradient[1][p], particles.gradient[2][p], particles.gradient[3][p];
+  return gradient;
+}
+
+}  // namespace
+
+Traction::Traction(const TractionDescription& description, const std::vector<std::vector<Vec2>>& lines, double spacing,
+                   const mpm::Particles<2>& particles)
+    : description_(description)
+{
+  for (const std::vector<Vec2>& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const Vec2& from = line[k];
+      const Vec2 along = line[(k + 1) % line.size()] - from;
+      const int count = std::max(1, static_cast<int>(std::lround(along.norm() / spacing)));
+      for (int i = 0; i < count; ++i) {
+        const Vec2 middle = from + (i + 0.5) / count * along;
+        if (description.region && !within(*description.region, middle, edge_tolerance * spacing))
+          continue;
+        const std::uint32_t owner = nearest_particle(particles, middle);
+        const Vec2 at(particles.position[0][owner], particles.position[1][owner]);  // not sorted yet: row = id
+        pieces_.push_back({ owner, middle - at, Vec2(along[1], -along[0]) / count });
+      }
+    }
+}
+
+Vec2 Traction::force(const Piece& piece, double factor) const
+{
+  return factor * (piece.area.norm() * description_.traction_pa - description_.pressure_pa * piece.area);
+}
+
+Vec2 Traction::add_to(mpm::Grid<2>& grid, mpm::Shape shape, const mpm::Particles<2>& particles,
+                      const std::vector<std::uint32_t>& row, double time_s) const
+{
+  const double factor = factor_at(description_.table, time_s);
+  Vec2 sum = Vec2::Zero();
+  for (const Piece& piece : pieces_) {
+    const std::size_t p = row[piece.owner];
+    const Vec2 f = force(piece, factor);
+    // A piece that a deformation gone wild has carried far acts a cell away: the grid's storage ends two cells outside.
+    const double far = piece.offset.norm() / grid.dx();
+    mpm::add_surface_force<2>(shape, Vec2(particles.position[0][p], particles.position[1][p]),
+                              piece.offset / std::max(1.0, far), f, grid);
+    sum += f;
+  }
+  return sum;
+}
+
+double Traction::power(const mpm::Particles<2>& particles, const std::vector<std::uint32_t>& row, double time_s) const
+{
+  const double factor = factor_at(description_.table, time_s);
+  double power = 0.0;
+  for (const Piece& piece : pieces_) {
+    const std::size_t p = row[piece.owner];
+    const Vec2 velocity =
+        Vec2(particles.velocity[0][p], particles.velocity[1][p]) + gradient_of(particles, p) * piece.offset;
+    power += force(piece, factor).dot(velocity);
+  }
+  return power;
+}
+
+void Traction::move(const mpm::Particles<2>& particles, const std::vector<std::uint32_t>& row, double dt)
+{
+  for (Piece& piece : pieces_) {
+    const Mat2 step = Mat2::Identity() + dt * gradient_of(particles, row[piece.owner]);
+    piece.offset = step * piece.offset;
+    // det(F) F^-T, written out.
+    const Vec2 area = piece.area;
+    piece.area = { step(1, 1) * area[0] - step(1, 0) * area[1], step(0, 0) * area[1] - step(0, 1) * area[0] };
+  }
+}
+
+SupportSums apply_support(const SupportDescription& support, double time_s, double kick, mpm::Grid<2>& grid)
+{
+  constexpr int mass_slot = mpm::Grid<2>::mass_slot;
+  Vec2 held = Vec2::Zero();
+  if (!support.velocity_table.empty()) {
+    const auto [held_y, held_z] = value_at<2>(support.velocity_table, time_s);
+    held = { held_y, held_z };
+  }
+  const std::array<bool, 2> holds{ support.holds_y, support.holds_z };
+  const mpm::Window<2>& window = grid.window();
+  std::array<int, 2> begin, end;
+  for (int d = 0; d < 2; ++d) {
+    const auto slot = static_cast<std::size_t>(d);
+    const double low = (support.region.lower_m[d] - grid.origin()[d]) * grid.inverse_dx();
+    const double high = (support.region.upper_m[d] - grid.origin()[d]) * grid.inverse_dx();
+    begin[slot] = std::max(window.begin[slot], static_cast<int>(std::ceil(low - edge_tolerance)));
+    end[slot] = std::min(window.end[slot], static_cast<int>(std::floor(high + edge_tolerance)) + 1);
+  }
+  SupportSums sums;
+  for (int i = begin[0]; i < end[0]; ++i)
+    for (int j = begin[1]; j < end[1]; ++j) {
+      const std::size_t n = grid.index({ i, j });
+      auto& node = grid.nodes()[n];
+      const double mass = node[mass_slot];
+      if (!(mass > 0.0))
+        continue;
+      sums.acted = true;
+      for (int c = 0; c < 2; ++c) {
+        if (!holds[static_cast<std::size_t>(c)])
+          continue;
+        // Forces and support act in the same instant; see ContactSolver::solve.
+        const double after = node[c], before = after - kick / mass * grid.forces()[n][c];
+        const double impulse = mass * (held[c] - after);
+        sums.kinetic_change += 0.5 * impulse * (held[c] + after);
+        sums.work += impulse * held[c];
+        sums.dissipated += impulse * held[c] - 0.5 * impulse * (held[c] + before);
+        node[c] = held[c];
+      }
+    }
+  return sums;
+}
+
+}  // namespace geocontainer_mpm::scene

@@ -1,0 +1,150 @@
+#pragma once
+/// The scene grammar: sheets, the hull, and rigid surfaces.
+
+#include "description_grammar_body.h"
+
+namespace geocontainer_mpm::scene::grammar {
+
+template <class V>
+void describe(V& v, SheetLine& l)
+{
+  v.value({ "points_m", required, "m", "corners of the path in order; sides do not cross" }, l.points_m, at_least(2));
+  v.value({ "closed", optional, "", "joined from the last point to the first" }, l.closed);
+}
+
+template <class V>
+void describe(V& v, SheetEnd& e)
+{
+  v.value({ "held", optional, "", "stays in place, or follows `motion_table`" }, e.held);
+  v.value({ "motion_table", optional, "s, m, m", "displacement over time, zero at time 0; empty: still", e.held,
+            "a held end" },
+          e.motion_table, rows("time_s, y, z"));
+  v.value({ "force_n_per_m", optional, "N/m", "pulls at the end", !e.held, "an end that is not held" },
+          e.force_n_per_m);
+  v.value({ "force_table", optional, "s, 1", "factor on `force_n_per_m` over time; empty: 1", !e.held,
+            "an end that is not held" },
+          e.force_table, rows("time_s, factor"));
+}
+
+template <class V>
+void describe(V& v, InsidePressure& p)
+{
+  v.value({ "pressure_pa", optional, "Pa", "pressure at the level, outwards positive" }, p.pressure_pa);
+  v.value({ "gradient_pa_per_m", optional, "Pa/m", "growth of pressure with depth: unit weight of what is inside" },
+          p.gradient_pa_per_m, non_negative());
+  v.value({ "level_m", optional, "m", "z at which `pressure_pa` acts; absent: the sheet's own highest point" },
+          p.level_m);
+  v.value({ "table", optional, "s, 1", "factor on the pressure over time; empty: 1" }, p.table, rows("time_s, factor"));
+}
+
+template <class V>
+void describe(V& v, GeotextileDescription& g)
+{
+  v.value({ "encloses", optional, "", "the body in `bodies` around whose outline the closed sheet is laid" },
+          g.encloses);
+  v.section({ "line", optional, "", "path along which a free sheet is laid, open or closed" }, g.line);
+  v.section({ "circle", optional, "", "circle along which a free, closed sheet is laid" }, g.circle);
+  v.value({ "circumference_m", optional, "m",
+            "unstretched length around, or from end to end; the excess over the path is slack, laid in evenly" },
+          g.circumference_m, positive());
+  v.value({ "slack", optional, "", "the same as unstretched length over that of the path, less 1" }, g.slack,
+          non_negative());
+  v.value({ "pretension_n_per_m", optional, "N/m", "tension in the sheet as it is laid" }, g.pretension_n_per_m,
+          non_negative());
+  const bool open = g.line && !g.line->closed;
+  const bool free = g.encloses.empty();
+  v.section({ "start", optional, "", "what happens at the first point of an open line", open, "an open `line`" },
+            g.start);
+  v.section({ "end", optional, "", "what happens at the last point of an open line", open, "an open `line`" }, g.end);
+  v.section(
+      { "inside_pressure", optional, "",
+        "pressure on the inner side: (pressure_pa + gradient_pa_per_m (level - z)) factor", !open, "a closed sheet" },
+      g.inside_pressure);
+  v.value({ "velocity_field", optional, "", "as for bodies; a sheet around a body moves in the body's field", free,
+            "a free sheet (`line` or `circle`)" },
+          g.velocity_field);
+  v.value({ "initial_velocity_m_per_s", optional, "m/s", "velocity of the whole sheet at the start", free,
+            "a free sheet (`line` or `circle`)" },
+          g.initial_velocity_m_per_s);
+  v.section({ "initial_velocity_wave", optional, "", "a sine over space on top: a mode of vibration", free,
+              "a free sheet (`line` or `circle`)" },
+            g.initial_velocity_wave);
+  v.value({ "stiffness_n_per_m", required, "N/m", "J (warp): force per width and unit strain" }, g.stiffness_n_per_m,
+          positive());
+  v.value({ "mass_kg_per_m2", required, "kg/m2", "true mass: what gravity pulls" }, g.mass_kg_per_m2, positive());
+  v.value(
+      { "computational_mass_kg_per_m2", required, "kg/m2", "inertia used (mass scaling), not below `mass_kg_per_m2`" },
+      g.computational_mass_kg_per_m2, positive());
+  v.value({ "strength_n_per_m", required, "N/m", "tensile strength of the sheet (warp)" }, g.strength_n_per_m,
+          positive());
+  v.value({ "seam_efficiency", optional, "", "strength of a seam over the sheet's" }, g.seam_efficiency,
+          open_closed(0.0, 1.0));
+  v.value({ "segment_length_m", required, "m", "wanted length of a membrane segment; about a cell" },
+          g.segment_length_m, positive());
+  v.value({ "gauge_length_m", optional, "m", "reported tension is the mean over this; not below `segment_length_m`" },
+          g.gauge_length_m, positive());
+}
+
+template <class V>
+void describe(V& v, barge::OpeningSignalParameters& s)
+{
+  v.value({ "min_angle_rad", optional, "rad", "lower end of believable angles" }, s.min_angle_rad,
+          told("in [-1.57, 0]"));
+  v.value({ "max_angle_rad", optional, "rad", "upper end of believable angles" }, s.max_angle_rad,
+          told("in (0, 1.57]"));
+  v.value({ "max_rate_rad_per_s", optional, "rad/s", "fastest believable opening rate" }, s.max_rate_rad_per_s,
+          told("in (0, 100]"));
+  v.value({ "noise_rad", optional, "rad", "jump between neighbouring samples that noise alone may cause" }, s.noise_rad,
+          told("in [0, 1.57]"));
+  v.value({ "max_gap_s", optional, "s", "a longer silence holds the last angle and is reported" }, s.max_gap_s,
+          told("in (0, 3600]"));
+  v.value({ "smoothing_time_s", optional, "s", "width of the centred moving average; 0: none" }, s.smoothing_time_s,
+          told("in [0, 60]"));
+  v.value({ "backlash_rad", optional, "rad", "play that the angle must leave before the hull moves; 0: none" },
+          s.backlash_rad, told("in [0, 0.1]"));
+  v.checked_by_itself(s);
+}
+
+template <class V>
+void describe(V& v, HullDescription& h)
+{
+  v.value({ "hinge_m", required, "m", "hinge axis" }, h.hinge_m);
+  v.value({ "port_section_m", required, "m",
+            "port half (y >= 0) of the closed hull as an open line: from the bottom inwards, round the lip and up the "
+            "inner wall to the deck, the free side on the left walking along it. Starboard is its mirror image" },
+          h.port_section_m, at_least(3));
+  v.value({ "lip_radius_m", required, "m", "corners of the section are rounded with this radius" }, h.lip_radius_m,
+          non_negative());
+  v.value({ "friction", required, "", "Coulomb coefficient of the container on the hull" }, h.friction, non_negative());
+  v.value({ "opening_table", optional, "s, rad, rad",
+            "opening used when no log is given, times ascending from 0 or later, angles in the believable range of "
+            "`signal`; empty: the hull stays closed" },
+          h.opening_table);
+  v.section({ "signal", optional, "", "how logged angles are judged and filtered" }, h.signal);
+}
+
+template <class V>
+void describe(V& v, MotionDescription& m)
+{
+  v.value({ "pivot_m", optional, "m", "point about which the surface turns, where it is without displacement" },
+          m.pivot_m);
+  v.value({ "table", required, "s, m, m, rad",
+            "displacement of the pivot, and rotation about +x (y towards z), over time" },
+          m.table, rows("time_s, y, z, angle", 1));
+}
+
+template <class V>
+void describe(V& v, SurfaceDescription& s)
+{
+  v.value({ "line_m", required, "m", "corners of the line; the free side is on the left walking along it" }, s.line_m,
+          at_least(2));
+  v.value({ "closed", optional, "", "joined from the last point to the first" }, s.closed);
+  v.value({ "corner_radius_m", optional, "m", "corners are rounded with this radius", !s.closed, "an open line" },
+          s.corner_radius_m, non_negative());
+  v.value({ "friction", required, "", "Coulomb coefficient" }, s.friction, non_negative());
+  v.section({ "motion", optional, "",
+              "prescribed rigid motion: x = pivot + R(angle) (X - pivot) + displacement; absent: stands still" },
+            s.motion);
+}
+
+}  // namespace geocontainer_mpm::scene::grammar

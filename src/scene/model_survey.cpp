@@ -1,0 +1,188 @@
+/// A look at every particle after a step: where, how fast, whether all is well, and how long the next step may be.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geocontainer_mpm/scene/model.h"
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+/// The stability bound is assembled anew when particles have moved by this many cells, or after so many steps; for
+/// linear simplices, whose nodes may be of any smallness, in every step (frequency_bound.h).
+constexpr double bound_valid_cells = 0.1;
+constexpr int bound_valid_steps = 20;
+
+/// By how much a consistent mass matrix raises the largest squared frequency: its smallest eigenvalue relative to the
+/// lumped one is at worst the lumped part of it.
+double stiffening(const mpm::Discretisation& method)
+{
+  return method.mass == mpm::MassMatrix::consistent ? 1.0 / mpm::ConsistentMass<2>::lumped_part : 1.0;
+}
+
+struct Look {
+  Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  double fastest_square = 0.0;
+  bool sound = true;  ///< all finite, with volume, inside the grid
+};
+
+Look look_at(const mpm::Particles<2>& particles, bool has_volume, const Vec2& grid_lower, const Vec2& grid_upper)
+{
+  Look look;
+  double doubt = 0.0;  // stays zero, unless something is not finite: then NaN
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double y = particles.position[0][p], z = particles.position[1][p];
+    const double vy = particles.velocity[0][p], vz = particles.velocity[1][p];
+    look.lower = look.lower.cwiseMin(Vec2(y, z));
+    look.upper = look.upper.cwiseMax(Vec2(y, z));
+    const double square = vy * vy + vz * vz;
+    look.fastest_square = std::max(look.fastest_square, square);
+    doubt += 0.0 * (y + z + square);
+  }
+  if (has_volume)
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      doubt += particles.volume[p] > 0.0 ? 0.0 * particles.volume[p] : std::numeric_limits<double>::quiet_NaN();
+  const bool outside =
+      (look.lower.array() < grid_lower.array()).any() || (look.upper.array() > grid_upper.array()).any();
+  look.sound = doubt == 0.0 && !outside;
+  return look;
+}
+
+/// The first particle that is not well.
+Failure find_culprit(const std::string& name, const mpm::Particles<2>& particles, bool has_volume,
+                     const Vec2& grid_lower, const Vec2& grid_upper)
+{
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec2 x(particles.position[0][p], particles.position[1][p]);
+    const Vec2 v(particles.velocity[0][p], particles.velocity[1][p]);
+    const char* cause = !x.allFinite() || !v.allFinite()             ? "is not finite any more"
+                        : has_volume && !(particles.volume[p] > 0.0) ? "has lost its volume"
+                        : (x.array() < grid_lower.array()).any() || (x.array() > grid_upper.array()).any()
+                            ? "left the grid"
+                            : nullptr;
+    if (cause)
+      return { fmt::format("particle {} of {} {}", particles.id[p], name, cause),
+               x.allFinite() ? x : Vec2(Vec2::Zero()), 0.0 };
+  }
+  return {};
+}
+
+}  // namespace
+
+void Model::survey()
+{
+  double fastest_square = 0.0;
+  for (Field& field : fields_) {
+    field.extent_lower = Vec2::Constant(std::numeric_limits<double>::infinity());
+    field.extent_upper = -field.extent_lower;
+  }
+  const auto take = [&](const std::string& name, std::size_t f, const mpm::Particles<2>& particles, bool has_volume) {
+    const Look look = look_at(particles, has_volume, lower_, upper_);
+    fields_[f].extent_lower = fields_[f].extent_lower.cwiseMin(look.lower);
+    fields_[f].extent_upper = fields_[f].extent_upper.cwiseMax(look.upper);
+    fastest_square = std::max(fastest_square, look.fastest_square);
+    if (look.sound || !now_.health.ok)
+      return;
+    now_.health.ok = false;
+    now_.health.failure = find_culprit(name, particles, has_volume, lower_, upper_);
+  };
+  for (const Body& body : now_.bodies)
+    take(body.name, body.field, body.particles, true);
+  for (const ModelSheet& sheet : now_.sheets)
+    take(sheet.name, sheet.field, sheet.sheet.nodes(), false);
+  now_.fastest = std::sqrt(fastest_square);
+}
+
+/// Nothing has moved far or tightened since the bound was assembled. With linear shapes the mass of a node can all but
+/// vanish within a step, and the frequencies there grow with it.
+bool Model::bound_holds() const
+{
+  const bool lasts = method_.shape == mpm::Shape::bspline2 || mpm::feels_what_particles_hold(method_);
+  return lasts && now_.bound_known && now_.steps_since_bound < bound_valid_steps &&
+         now_.travel_since_bound <= bound_valid_cells * fields_.front().grid.dx() &&
+         active_segments() <= now_.bound_active_segments;
+}
+
+std::size_t Model::active_segments() const
+{
+  std::size_t active = 0;
+  for (const ModelSheet& sheet : now_.sheets)
+    for (std::size_t i = 0; i < sheet.sheet.segments(); ++i)
+      active += sheet.sheet.segment(i).active ? 1 : 0;
+  return active;
+}
+
+/// The largest frequency and damping rate that the state of one field allows.
+void Model::assemble_bound(std::size_t f)
+{
+  Field& field = fields_[f];
+  field.bound.begin(field.grid, method_);
+  for (Body& body : now_.bodies) {
+    if (body.field != f)
+      continue;
+    // The law bounds its acoustic tensor; the ratio of its moduli is taken to stay.
+    const material::Stiffness now = body.law->stiffness(body.particles.batch(), 0, body.particles.size());
+    const double growth = now.constrained_modulus / body.elastic.constrained();
+    const double viscous = body.viscous.constrained() > 0.0 ? now.viscosity / body.viscous.constrained() : 0.0;
+    field.bound.add_body(body.particles, { growth * body.elastic.lame, growth * body.elastic.shear },
+                         { viscous * body.viscous.lame, viscous * body.viscous.shear });
+  }
+  for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
+    const geotextile::Sheet& sheet = now_.sheets[s].sheet;
+    if (now_.sheets[s].field != f)
+      continue;
+    field.bound.add_mass(sheet.nodes());
+    for (std::size_t i = 0; i < sheet.segments(); ++i) {
+      const geotextile::SheetSegment segment = sheet.segment(i);
+      if (segment.active)
+        field.bound.add_segment(sheet.node(segment.start), sheet.node(segment.end), segment.stiffness, s, i);
+    }
+  }
+}
+
+/// How long the next step may be: what the scheme can bear, and no particle further than is allowed.
+void Model::bound_time_step()
+{
+  if (!bound_holds()) {
+    now_.bound_dt = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      assemble_bound(f);
+      const mpm::FrequencyBound<2>::Result bound = fields_[f].bound.bound();
+      now_.bound_dt = std::min(
+          now_.bound_dt, mpm::stable_step(stiffening(method_) * bound.frequency_square, bound.damping_rate, method_));
+    }
+    now_.bound_known = true;
+    now_.steps_since_bound = 0;
+    now_.travel_since_bound = 0.0;
+    now_.bound_active_segments = active_segments();
+  }
+  stable_dt_ = std::min(max_step_, time_step_factor_ * now_.bound_dt);
+  if (now_.fastest > 0.0)
+    stable_dt_ = std::min(stable_dt_, max_travel_ / now_.fastest);
+}
+
+Failure Model::fastest() const
+{
+  Failure failure;
+  double fastest = -1.0;
+  const auto look = [&](const std::string& name, const mpm::Particles<2>& particles) {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double speed = std::hypot(particles.velocity[0][p], particles.velocity[1][p]);
+      if (!(speed > fastest))
+        continue;
+      fastest = speed;
+      failure.position_m = { particles.position[0][p], particles.position[1][p] };
+      failure.reason = fmt::format("particle {} of {} is fastest, at {:.3g} m/s", particles.id[p], name, speed);
+    }
+  };
+  for (const Body& body : now_.bodies)
+    look(body.name, body.particles);
+  for (const ModelSheet& sheet : now_.sheets)
+    look(sheet.name, sheet.sheet.nodes());
+  return failure;
+}
+
+}  // namespace geocontainer_mpm::scene

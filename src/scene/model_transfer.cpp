@@ -1,0 +1,220 @@
+/// Particles to the grids and back, and the loads that go with them.
+
+#include <algorithm>
+
+#include "geocontainer_mpm/scene/model.h"
+#include "model_chunks.h"
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+using mpm::Gather;
+using mpm::Part;
+using mpm::Smoothing;
+using mpm::UpdateOrder;
+
+Vec2 force_at(const SheetEnd& end, double time_s)
+{
+  return end.force_table.empty() ? end.force_n_per_m
+                                 : Vec2(value_at<1>(end.force_table, time_s)[0] * end.force_n_per_m);
+}
+
+geotextile::SheetLoad load_at(const GeotextileDescription& sheet, double time_s)
+{
+  geotextile::SheetLoad load;
+  if (sheet.inside_pressure) {
+    const InsidePressure& inside = *sheet.inside_pressure;
+    const double factor = inside.table.empty() ? 1.0 : value_at<1>(inside.table, time_s)[0];
+    load.pressure = factor * inside.pressure_pa;
+    load.gradient = factor * inside.gradient_pa_per_m;
+    load.level = inside.level_m;
+  }
+  load.start_force = force_at(sheet.start, time_s);
+  load.end_force = force_at(sheet.end, time_s);
+  return load;
+}
+
+}  // namespace
+
+/// Body forces of manufactured solutions and loads of sheets, as forces of their particles.
+void Model::load_particles(double time_s)
+{
+  load_sum_ = Vec2::Zero();
+  for (Body& body : now_.bodies) {
+    if (!body.manufactured)
+      continue;
+    for (std::size_t p = 0; p < body.particles.size(); ++p) {
+      const Vec2 force =
+          body.particles.mass[p] * body.manufactured->body_force((*body.start)[body.particles.id[p]], time_s);
+      body.particles.force[0][p] = force[0];
+      body.particles.force[1][p] = force[1];
+      load_sum_ += force;
+    }
+  }
+  bool taut = false;
+  for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
+    geotextile::Sheet& sheet = now_.sheets[s].sheet;
+    taut = sheet.update_forces(load_at(sheet_descriptions_[s], time_s)) || taut;
+    if (!taut)
+      continue;
+    for (std::size_t i = 0; i < sheet.nodes().size(); ++i)  // tensions cancel
+      load_sum_ += Vec2(sheet.nodes().force[0][i], sheet.nodes().force[1][i]);
+  }
+  now_.skipped.membrane_passes += taut ? 0 : 1;
+}
+
+/// All particles' share of the grids.
+void Model::scatter(Part part)
+{
+  for (const Body& body : now_.bodies)
+    mpm::body_to_grid(method_, body.particles, body.strips, { part, body.manufactured != nullptr, body.damping },
+                      now_.gravity, fields_[body.field].grid, *team_);
+  for (const ModelSheet& sheet : now_.sheets)
+    mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid);
+}
+
+void Model::add_tractions(double time_s)
+{
+  for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
+    const Body& body = now_.bodies[traction_body_[t]];
+    load_sum_ += now_.tractions[t].add_to(fields_[body.field].grid, method_.shape, body.particles, body.row, time_s);
+  }
+}
+
+/// The consistent mass matrices, from the particles' places at the start of the step.
+void Model::assemble_mass()
+{
+  if (method_.mass != mpm::MassMatrix::consistent)
+    return;
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    Field& field = fields_[f];
+    mpm::ConsistentMass<2>& mass = field.update.mass();
+    mass.open(method_.shape, field.grid);
+    for (const Body& body : now_.bodies)
+      if (body.field == f)
+        mass.add(body.particles, body.strips, field.grid, *team_);
+    for (const ModelSheet& sheet : now_.sheets)
+      if (sheet.field == f)
+        mass.add(sheet.sheet.nodes(), field.grid);
+  }
+}
+
+/// Power of all loads but constant gravity on the particles' present velocities, W/m.
+double Model::load_power(double time_s) const
+{
+  double power = 0.0;
+  for (const Body& body : now_.bodies)
+    if (body.manufactured)
+      for (std::size_t p = 0; p < body.particles.size(); ++p)
+        power += body.particles.force[0][p] * body.particles.velocity[0][p] +
+                 body.particles.force[1][p] * body.particles.velocity[1][p];
+  for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
+    const Body& body = now_.bodies[traction_body_[t]];
+    power += now_.tractions[t].power(body.particles, body.row, time_s);
+  }
+  for (const ModelSheet& sheet : now_.sheets)
+    power += sheet.sheet.external_power();
+  if (!gravity_table_.empty())
+    power += gravity_power(now_.gravity);
+  return power;
+}
+
+/// Stress before the forces (USF): from the velocities that came from the particles.
+void Model::stress_first(double dt)
+{
+  for (Field& field : fields_)
+    field.update.velocities(method_, field.grid, *team_);
+  gather_bodies(Gather::gradient, dt);
+  smooth_gradients();
+  update_stress(dt);
+  for (Field& field : fields_)
+    field.update.momenta(method_, field.grid, *team_);
+  scatter(Part::force);
+}
+
+/// Velocities and positions, and the velocity gradients that the stress update wants.
+void Model::move_particles(double dt)
+{
+  const bool mixed = method_.smoothing == Smoothing::nodal_mixed;
+  if (method_.update == UpdateOrder::usl && !mixed) {
+    gather_bodies(Gather::all, dt);
+    gather_sheets(Gather::motion, dt);
+  } else if (method_.update == UpdateOrder::musl) {
+    gather_bodies(Gather::velocity, dt);
+    gather_sheets(Gather::velocity, dt);
+    map_back();
+    gather_bodies(Gather::gradient, dt);
+    smooth_gradients();
+    gather_bodies(Gather::position, dt);
+    gather_sheets(Gather::position, dt);
+  } else {
+    if (method_.update == UpdateOrder::usl) {
+      gather_bodies(Gather::gradient, dt);
+      smooth_gradients();
+    }
+    gather_bodies(Gather::motion, dt);
+    gather_sheets(Gather::motion, dt);
+  }
+  move_tracers(dt);
+  for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
+    const Body& body = now_.bodies[traction_body_[t]];
+    now_.tractions[t].move(body.particles, body.row, dt);
+  }
+}
+
+/// The grid's velocities anew from the moved particles' (MUSL).
+void Model::map_back()
+{
+  for (Field& field : fields_) {
+    field.grid.keep_velocities(*team_);
+    field.grid.open(field.grid.window(), *team_);
+  }
+  scatter(Part::momentum);
+  for (Field& field : fields_)
+    field.update.velocities(method_, field.grid, *team_);
+}
+
+void Model::smooth_gradients()
+{
+  if (method_.smoothing == Smoothing::nodal_mixed)
+    for (Body& body : now_.bodies)
+      mpm::smooth_volume_rate(method_.shape, body.strips, body.particles, fields_[body.field].grid, *team_);
+}
+
+void Model::gather_bodies(Gather what, double dt)
+{
+  for (Body& body : now_.bodies)
+    for_chunks(body.particles.size(), *team_, [&](std::size_t first, std::size_t last) {
+      mpm::grid_to_particles(method_, fields_[body.field].grid, dt, what, body.particles, first, last);
+    });
+}
+
+void Model::gather_sheets(Gather what, double dt)
+{
+  for (ModelSheet& sheet : now_.sheets)
+    mpm::grid_to_particles(method_, fields_[sheet.field].grid, dt, what, sheet.sheet.nodes(), 0,
+                           sheet.sheet.nodes().size());
+}
+
+void Model::move_tracers(double dt)
+{
+  for (Tracer& tracer : now_.tracers) {
+    const Body& body = now_.bodies[tracer.body];
+    const std::size_t p = body.row[tracer.owner];
+    tracer.offset += dt * (body.gradient(p) * tracer.offset);
+    const Vec2 moved = body.position(p) + tracer.offset;
+    tracer.velocity = (moved - tracer.position) / dt;
+    tracer.position = moved;
+  }
+}
+
+void Model::update_stress(double dt)
+{
+  for (Body& body : now_.bodies) {
+    const material::Batch<2> batch = body.particles.batch();
+    for_chunks(body.particles.size(), *team_,
+               [&](std::size_t first, std::size_t last) { body.law->update(batch, dt, first, last); });
+  }
+}
+
+}  // namespace geocontainer_mpm::scene

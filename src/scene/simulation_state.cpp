@@ -1,0 +1,338 @@
+#include "simulation_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+/// Settling under gravity: damping as part of the lowest frequency's critical value, how still is still enough, and
+/// when to give up.
+constexpr double settling_damping = 0.5;
+constexpr double settled_part_of_rest_velocity = 0.25;
+constexpr double settled_for_s = 0.1;
+constexpr double longest_settling_s = 10.0;
+
+/// Two instants closer than this are one, s.
+constexpr double same_instant_s = 1e-9;
+/// A run can be taken back by this many steps. Fewer cost more copies, more cost more steps to take again.
+constexpr int steps_between_checkpoints = 32;
+/// Energy from nowhere below this part of what is stored is not looked at: near rest the books of friction and of
+/// grains that part and meet are not exact, while what is unstable grows through any bound.
+constexpr double negligible_energy = 1e-3;
+
+ChangingTimes changing_times(const SceneDescription& scene)
+{
+  ChangingTimes changes;
+  changes.add(scene.gravity_table);
+  for (const auto& [name, surface] : scene.surfaces)
+    if (surface.motion)
+      changes.add(surface.motion->table);
+  for (const auto& [name, traction] : scene.tractions)
+    changes.add(traction.table);
+  for (const auto& [name, support] : scene.supports)
+    for (const TableRow<2>& row : support.velocity_table)
+      if (row.value != std::array<double, 2>{})
+        changes.always();
+  for (const auto& [name, sheet] : scene.geotextiles) {
+    for (const SheetEnd& end : { sheet.start, sheet.end }) {
+      changes.add(end.motion_table);
+      changes.add(end.force_table);
+    }
+    if (sheet.inside_pressure)
+      changes.add(sheet.inside_pressure->table);
+  }
+  for (const auto& [name, body] : scene.bodies)
+    if (body.manufactured)
+      changes.always();
+  return changes;
+}
+
+}  // namespace
+
+Simulation::State::State(const SceneDescription& description, int threads)
+    : scene(description)
+    , model(scene, threads)
+    , opening(signal_parameters())
+    , motion(scene)
+    , changes(changing_times(scene))
+    , watch(scene)
+    , probes(scene, model)
+    , fresh_probes(probes)
+{
+  settle();
+  settled = model.state();
+  progress.mean_force.assign(model.boundaries().size(), Vec2::Zero());
+  progress.interval_start = model.state().boundary_totals;
+  fresh_progress = progress;
+  watch.observe(model, 0.0, {}, 0.0);
+}
+
+barge::OpeningSignalParameters Simulation::State::signal_parameters() const
+{
+  return scene.hull ? scene.hull->signal : barge::OpeningSignalParameters{};
+}
+
+/// Damped steps at time zero with the hull closed until everything is still. False if that did not happen, or the
+/// material slid further than `furthest_slide_m` on the way.
+bool Simulation::State::damp_to_rest(double furthest_slide_m)
+{
+  const std::vector<contact::RigidPose> closed = motion.poses(0.0, {});
+  const double damping = 2.0 * settling_damping * model.fundamental_frequency();
+  const double still = settled_part_of_rest_velocity * scene.numerics.rest_velocity_m_per_s;
+  const Vec2 from = model.centroid();
+  double time = 0.0, moved = 0.0;
+  while (time - moved < settled_for_s) {
+    const double dt = model.stable_dt(0.0);
+    if (!model.step({ 0.0, dt, closed, closed, damping }).ok || time > longest_settling_s ||
+        (model.centroid() - from).norm() > furthest_slide_m)
+      return false;
+    time += dt;
+    if (model.rms_velocity() > still)
+      moved = time;
+  }
+  model.stop_motion();
+  return true;
+}
+
+/// Lets bodies that ask for it come to rest under gravity with the hull closed: first held where they touch, then with
+/// their true friction; where that cannot hold them, the held state is the start. A state that cannot
+/// settle at all ends the run before it begins.
+void Simulation::State::settle()
+{
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const auto& body) { return body.second.initial_stress == InitialStress::gravity; })) {
+    const ModelState raw = model.state();
+    model.hold(true);
+    damp_to_rest(std::numeric_limits<double>::infinity());
+    model.hold(false);
+    if (!model.state().health.ok) {
+      progress.stopped = true;
+      progress.failure = model.state().health.failure;
+      progress.failure.reason = "while settling under gravity: " + progress.failure.reason;
+      model.restore(raw);
+    } else {
+      const ModelState held = model.state();
+      if (!damp_to_rest(scene.grid.cell_size_m))
+        model.restore(held);
+    }
+  }
+  model.open_ledger();
+}
+
+barge::OpeningAngles Simulation::State::angles_at(double time_s) const
+{
+  return scene.hull && opening.known_until_s() >= 0.0 ? opening.angles(time_s) : barge::OpeningAngles{};
+}
+
+/// The end counts as an output instant.
+double Simulation::State::output_time_s() const
+{
+  return std::min(static_cast<double>(progress.next_frame) * scene.time.output_interval_s, scene.time.end_s);
+}
+
+double Simulation::State::sample_time_s() const
+{
+  if (probes.empty())
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(progress.next_sample) * scene.time.probe_interval_s.value_or(scene.time.output_interval_s);
+}
+
+void Simulation::State::sample_if_due()
+{
+  if (progress.time_s < sample_time_s() - same_instant_s)
+    return;
+  ++progress.next_sample;
+  const barge::OpeningAngles angles = angles_at(progress.time_s);
+  std::vector<double> rotation;
+  for (std::size_t b = 0; b < model.boundaries().size(); ++b)
+    rotation.push_back(motion.angle(b, progress.time_s, angles));
+  probes.sample(model, progress.time_s, rotation);
+}
+
+/// Closes an output interval when its end is reached.
+bool Simulation::State::output_reached()
+{
+  sample_if_due();
+  if (progress.time_s < output_time_s() - same_instant_s)
+    return false;
+  ++progress.next_frame;
+  const std::vector<BoundaryTotal>& totals = model.state().boundary_totals;
+  const double length = progress.time_s - progress.interval_start_s;
+  if (length > 0.0 && !progress.resting)
+    for (std::size_t b = 0; b < totals.size(); ++b)
+      progress.mean_force[b] = -(totals[b].impulse - progress.interval_start[b].impulse) / length;
+  progress.interval_start = totals;
+  progress.interval_start_s = progress.time_s;
+  probes.close_frame();
+  return true;
+}
+
+/// The first frame.
+void Simulation::State::begin()
+{
+  output_reached();
+  save();
+}
+
+/// When something that the scene prescribes changes next: hull, surfaces, loads.
+double Simulation::State::next_change_s(double time_s) const
+{
+  return std::min(changes.next(time_s),
+                  scene.hull ? opening.next_motion_s(time_s) : std::numeric_limits<double>::infinity());
+}
+
+/// How long everything has been slow while nothing was driven, s.
+double Simulation::State::still_for_s() const
+{
+  // At rest the hull is known to have been still; the end of the known opening must not look like motion.
+  const bool undriven = progress.resting || next_change_s(progress.time_s) > progress.time_s;
+  return undriven ? progress.time_s - progress.still_since_s : 0.0;
+}
+
+/// Jumps over rest. False while the opening is not known ahead.
+bool Simulation::State::rest_on(Advance& result)
+{
+  const double from = progress.time_s;
+  double to = std::min({ output_time_s(), sample_time_s(), scene.time.end_s });
+  const double change = next_change_s(from);
+  const bool known = !scene.hull || opening.known_until_s() > from;
+  if (change <= from && known) {
+    progress.resting = false;
+    progress.still_since_s = from;
+    save();
+    result = Advance::stepped;
+    return true;
+  }
+  to = std::min(to, change);
+  if (scene.hull)
+    to = std::min(to, opening.known_until_s());
+  if (!(to > from))
+    return false;
+  progress.time_s = to;
+  progress.resting_time_s += to - from;
+  watch.observe(model, progress.time_s, angles_at(to), still_for_s());
+  result = output_reached() ? Advance::frame_due : Advance::stepped;
+  return true;
+}
+
+/// As long as stability allows, halved where a step went wrong, and landing on what comes next without a sliver of a
+/// step.
+double Simulation::State::step_length(double stable_dt) const
+{
+  double dt = std::ldexp(stable_dt, -progress.halvings);
+  for (const double instant : { output_time_s(), sample_time_s(), scene.time.end_s }) {
+    const double left = instant - progress.time_s;
+    if (left > 0.0 && left < 2.0 * dt)
+      dt = left > dt ? 0.5 * left : left;
+  }
+  return dt;
+}
+
+void Simulation::State::count_step(double dt)
+{
+  progress.time_s += dt;
+  progress.dt_s = dt;
+  progress.min_dt_s = progress.steps == 0 ? dt : std::min(progress.min_dt_s, dt);
+  progress.max_dt_s = std::max(progress.max_dt_s, dt);
+  ++progress.steps;
+  ++steps_since_checkpoint_;
+}
+
+/// One step. False while the opening is not known far enough ahead.
+bool Simulation::State::step_once(Advance& result)
+{
+  const double dt = step_length(model.stable_dt(progress.time_s)), before = progress.time_s, after = before + dt;
+  if (scene.hull && after >= opening.known_until_s())
+    return false;
+  const StepStatus status = model.step({ before, dt, motion.poses(before, angles_at(before)),
+                                         motion.poses(after, angles_at(after)), scene.numerics.damping_per_s });
+  count_step(dt);
+  if (!status.ok) {
+    result = undo(status.failure);
+    return true;
+  }
+  const bool output_due = progress.time_s >= output_time_s() - same_instant_s;
+  const bool look = output_due || steps_since_checkpoint_ >= steps_between_checkpoints;
+  if (look && energy_jumped(model.energy())) {
+    Failure failure = model.fastest();
+    failure.reason = "energy came from nowhere; " + failure.reason;
+    result = undo(failure);
+    return true;
+  }
+  if (model.rms_velocity() > scene.numerics.rest_velocity_m_per_s)
+    progress.still_since_s = progress.time_s;
+  if (scene.numerics.skip_resting.value_or(scene.hull.has_value()) && still_for_s() >= scene.numerics.rest_time_s) {
+    model.stop_motion();
+    progress.resting = true;
+  }
+  watch.observe(model, progress.time_s, angles_at(progress.time_s), still_for_s());
+  result = output_reached() ? Advance::frame_due : Advance::stepped;
+  if (look) {
+    if (progress.halvings > 0 && progress.time_s > progress.doubtful_s)
+      --progress.halvings;
+    save();
+  }
+  return true;
+}
+
+/// Has energy appeared since the last checkpoint that nothing accounts for? What the transfers between particles and
+/// grid have taken is not counted against it: it is numerical itself, and with usf and musl the stress sees other
+/// velocities than the forces. Compared with the motion that there was and what changed hands meanwhile.
+bool Simulation::State::energy_jumped(const EnergyFrame& now) const
+{
+  const EnergyFrame& then = checkpoint_->energy;
+  const double from_nowhere = (now.unbalanced - now.dissipated_transfer) - (then.unbalanced - then.dissipated_transfer);
+  const double exchanged = 0.5 * (std::abs(now.kinetic - then.kinetic) + std::abs(now.elastic - then.elastic) +
+                                  std::abs(now.potential - then.potential) +
+                                  std::abs(now.dissipated - then.dissipated) + std::abs(now.work_in - then.work_in));
+  const double negligible = negligible_energy * (now.kinetic + now.elastic);
+  return !(from_nowhere <= scene.numerics.energy_jump * (then.kinetic + exchanged) + negligible);
+}
+
+void Simulation::State::save()
+{
+  if (checkpoint_) {
+    checkpoint_->model = model.state();
+    checkpoint_->progress = progress;
+    checkpoint_->watch = watch;
+    checkpoint_->probes = probes;
+    checkpoint_->energy = model.energy();
+  } else {
+    checkpoint_.emplace(Checkpoint{ model.state(), progress, watch, probes, model.energy() });
+  }
+  steps_since_checkpoint_ = 0;
+}
+
+/// Back to the last checkpoint, with steps of half the length until the doubtful time has passed; or the end.
+Advance Simulation::State::undo(const Failure& failure)
+{
+  const double wrong_s = progress.time_s;
+  const std::uint64_t retries = progress.retries;
+  const int halvings = progress.halvings;
+  model.restore(checkpoint_->model);
+  progress = checkpoint_->progress;
+  watch = checkpoint_->watch;
+  probes = checkpoint_->probes;
+  steps_since_checkpoint_ = 0;
+  progress.retries = retries;
+  if (halvings < scene.numerics.max_halvings) {
+    ++progress.retries;
+    progress.halvings = halvings + 1;
+    progress.doubtful_s = std::max(progress.doubtful_s, wrong_s);
+    checkpoint_->progress = progress;
+    return Advance::stepped;
+  }
+  progress.stopped = true;
+  progress.failure = failure;
+  progress.failure.time_s = wrong_s;
+  if (scene.numerics.max_halvings > 0)
+    progress.failure.reason +=
+        fmt::format("; steps of 1/{} of the stable length did not help", 1 << scene.numerics.max_halvings);
+  return Advance::stopped;
+}
+
+}  // namespace geocontainer_mpm::scene

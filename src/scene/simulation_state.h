@@ -1,0 +1,84 @@
+#pragma once
+/// The inside of Simulation: when to step, when to rest, when to undo.
+
+#include <optional>
+#include <vector>
+
+#include "geocontainer_mpm/scene/changing_times.h"
+#include "geocontainer_mpm/scene/model.h"
+#include "geocontainer_mpm/scene/prescribed_motion.h"
+#include "geocontainer_mpm/scene/probes.h"
+#include "geocontainer_mpm/scene/release_watch.h"
+#include "geocontainer_mpm/scene/simulation.h"
+
+namespace geocontainer_mpm::scene {
+
+struct Simulation::State {
+  /// What reset() restores, beside model, watch and probes.
+  struct Progress {
+    double time_s = 0.0;
+    double dt_s = 0.0;
+    double still_since_s = 0.0;  ///< everything has been slow since then
+    bool resting = false;
+    std::uint64_t next_frame = 0, next_sample = 0;
+    double min_dt_s = 0.0, max_dt_s = 0.0;
+    std::uint64_t steps = 0;
+    double resting_time_s = 0.0;
+    double interval_start_s = 0.0;
+    std::vector<BoundaryTotal> interval_start;  ///< per boundary body
+    std::vector<Vec2> mean_force;               ///< over the last output interval, N/m
+    std::uint64_t retries = 0;
+    int halvings = 0;         ///< steps are shortened by this power of two
+    double doubtful_s = 0.0;  ///< where a step went wrong last
+    Failure failure;
+    bool stopped = false;
+  };
+  /// The last state that was found right, with what its energy balance was.
+  struct Checkpoint {
+    ModelState model;
+    Progress progress;
+    ReleaseWatch watch;
+    Probes probes;
+    EnergyFrame energy;
+  };
+
+  State(const SceneDescription& description, int threads);
+
+  barge::OpeningSignalParameters signal_parameters() const;
+  barge::OpeningAngles angles_at(double time_s) const;
+  void begin();
+  bool step_once(Advance& result);
+  bool rest_on(Advance& result);
+
+  SceneDescription scene;
+  Model model;
+  barge::OpeningSignal opening;
+  PrescribedMotion motion;
+  ChangingTimes changes;
+  ReleaseWatch watch;
+  Probes probes;
+  Progress progress;
+  ModelState settled;  ///< what reset() goes back to
+  Probes fresh_probes;
+  Progress fresh_progress;
+
+private:
+  bool damp_to_rest(double furthest_slide_m);
+  void settle();
+  double output_time_s() const;
+  double sample_time_s() const;
+  void sample_if_due();
+  bool output_reached();
+  double still_for_s() const;
+  double next_change_s(double time_s) const;
+  double step_length(double stable_dt) const;
+  bool energy_jumped(const EnergyFrame& now) const;
+  void save();
+  Advance undo(const Failure& failure);
+  void count_step(double dt);
+
+  std::optional<Checkpoint> checkpoint_;
+  int steps_since_checkpoint_ = 0;
+};
+
+}  // namespace geocontainer_mpm::scene

@@ -1,0 +1,60 @@
+"""Generalized vortex: a neo-Hookean ring sheared in itself by 1 rad."""
+
+import numpy as np
+
+from suite import methods
+from suite.drawing import COLOURS, draw_convergence, picture
+from suite.quantity import at_least, shown
+from suite.run import Run
+from suite.series import Convergence
+
+TITLE = "Manufactured solution, generalized vortex"
+SOURCE = "Kamojjala, Brannon, Sadeghirad and Guilkey 2015, Eng. Comput. 31:341"
+REMARKS = """The ring's edges cut through cells: what is not second order comes from there. Standard linear MPM is shown
+beside the default; at a twist of 1 rad every particle crosses many cells."""
+
+SIZES = [0.1, 0.05, 0.025, 0.0125]
+METHODS = {"default": methods.DEFAULT, "linear flip": methods.STANDARD}
+
+
+def run(method, size):
+    return Run(f"{method} {size:g}", {"grid.cell_size_m": size, **METHODS[method]}, method, effort=(0.05 / size) ** 3)
+
+
+def runs(full):
+    return [run(method, size) for method in (METHODS if full else ["default"])
+            for size in (SIZES if full else SIZES[:3])]
+
+
+def rms(result):
+    """Largest over half a period of the root-mean-square distance of the particles from the solution, m."""
+    return float("nan") if result.stopped else float(np.max(result.series("error", "error_rms_m")))
+
+
+def series(results, method, sizes):
+    return Convergence(method, "RMS distance from the solution", "m", sizes,
+                       [rms(results[f"{method} {size:g}"]) for size in sizes])
+
+
+def quantities(results, full):
+    sizes = SIZES if full else SIZES[:3]
+    # The bar of the issue.
+    figures = [at_least("observed order, RMS", "default", series(results, "default", sizes).order, 1.7)]
+    if full:
+        figures += [shown("RMS distance at dx = 0.0125 m", method, rms(results[f"{method} 0.0125"]), 0.0, "m", False)
+                    for method in METHODS]
+    return figures
+
+
+def convergence(results):
+    return [series(results, method, SIZES) for method in METHODS]
+
+
+def draw(results, path):
+    with picture(path, 2) as (left, right):
+        for colour, method in zip(COLOURS, METHODS):
+            result = results[f"{method} 0.025"]
+            left.plot(result.time("error"), result.series("error", "error_rms_m"), color=colour, label=method)
+        left.set(xlabel="time [s]", ylabel="RMS distance [m], dx = 0.025 m", yscale="log")
+        left.legend()
+        draw_convergence(right, convergence(results))

@@ -1,0 +1,1 @@
+"""What the verification cases share: running `simulate`, judging a figure, drawing."""
