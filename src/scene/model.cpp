@@ -71,6 +71,7 @@ void Model::transfer_to_grid(double time_s)
   now_.gravity = gravity_at(time_s);
   sort_particles();
   open_grids();
+  clock.mark(stages_.p2g_s);
   load_particles(time_s);
   clock.mark(stages_.membrane_s);
   scatter(method_.update == UpdateOrder::usf ? mpm::Part::momentum : mpm::Part::all);
@@ -129,14 +130,14 @@ void Model::apply_forces(const StepInput& input, double kick)
 {
   double before = 0.0, after = 0.0;
   Vec2 change = Vec2::Zero();
-  away_from_faces_ = true;
+  bool away_from_faces = true;
   for (Field& field : fields_) {
     const mpm::MotionSums<2> sums = field.update.apply_forces(method_, field.grid, kick, input.damping_per_s, *team_);
     before += sums.kinetic_before;
     after += sums.kinetic_after;
     now_.ledger.damped += sums.damped;
     change += sums.momentum_after - sums.momentum_before;
-    away_from_faces_ = away_from_faces_ && !sums.touches_faces;
+    away_from_faces = away_from_faces && !sums.touches_faces;
   }
   if (now_.kinetic_known)
     now_.ledger.transfer += now_.kinetic - before;
@@ -144,7 +145,7 @@ void Model::apply_forces(const StepInput& input, double kick)
     now_.ledger.kinetic_at_start = before;
   now_.kinetic = after;
   now_.kinetic_known = true;
-  if (away_from_faces_ && input.damping_per_s == 0.0) {
+  if (away_from_faces && input.damping_per_s == 0.0) {
     const Vec2 pull = kick * (weight_mass_ * now_.gravity + load_sum_);
     now_.ledger.momentum_error += (change - pull).norm();
     now_.ledger.momentum_exchanged += pull.norm();

@@ -54,9 +54,9 @@ void Model::load_particles(double time_s)
   bool taut = false;
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
     geotextile::Sheet& sheet = now_.sheets[s].sheet;
-    taut = sheet.update_forces(load_at(sheet_descriptions_[s], time_s)) || taut;
-    if (!taut)
+    if (!sheet.update_forces(load_at(sheet_descriptions_[s], time_s)))
       continue;
+    taut = true;
     for (std::size_t i = 0; i < sheet.nodes().size(); ++i)  // tensions cancel
       load_sum_ += Vec2(sheet.nodes().force[0][i], sheet.nodes().force[1][i]);
   }

@@ -248,7 +248,6 @@ private:
   double stable_dt_ = 0.0;
   double load_power_before_ = 0.0;  ///< of loads on the velocity before the step, W/m
   Vec2 load_sum_ = Vec2::Zero();    ///< of all loads but gravity, N/m
-  bool away_from_faces_ = true;     ///< no face or support acted in this step
   StageTimes stages_;
 };
 
