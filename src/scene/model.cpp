@@ -107,7 +107,7 @@ StepStatus Model::step(const StepInput& input)
   solve_contact(input, kick);
   hold_nodes(input, kick);
   clock.mark(stages_.contact_s);
-  move_particles(input.dt_s);
+  move_particles(input);
   clock.mark(stages_.g2p_s);
   if (method_.update != UpdateOrder::usf)
     update_stress(input.dt_s);

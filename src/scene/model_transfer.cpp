@@ -133,8 +133,9 @@ void Model::stress_first(double dt)
 }
 
 /// Velocities and positions, and the velocity gradients that the stress update wants.
-void Model::move_particles(double dt)
+void Model::move_particles(const StepInput& input)
 {
+  const double dt = input.dt_s;
   const bool mixed = method_.smoothing == Smoothing::nodal_mixed;
   if (method_.update == UpdateOrder::usl && !mixed) {
     gather_bodies(Gather::all, dt);
@@ -142,7 +143,7 @@ void Model::move_particles(double dt)
   } else if (method_.update == UpdateOrder::musl) {
     gather_bodies(Gather::velocity, dt);
     gather_sheets(Gather::velocity, dt);
-    map_back();
+    map_back(input);
     gather_bodies(Gather::gradient, dt);
     smooth_gradients();
     gather_bodies(Gather::position, dt);
@@ -162,16 +163,19 @@ void Model::move_particles(double dt)
   }
 }
 
-/// The grid's velocities anew from the moved particles' (MUSL).
-void Model::map_back()
+/// The grid's velocities anew from the moved particles' (MUSL), under the same conditions of faces and supports.
+void Model::map_back(const StepInput& input)
 {
   for (Field& field : fields_) {
     field.grid.keep_velocities(*team_);
     field.grid.open(field.grid.window(), *team_);
   }
   scatter(Part::momentum);
-  for (Field& field : fields_)
+  for (Field& field : fields_) {
     field.update.velocities(method_, field.grid, *team_);
+    for (const SupportDescription& support : supports_)  // for strain alone: no force acts, so no sums
+      apply_support(support, input.time_s + 0.5 * input.dt_s, 0.0, field.grid);
+  }
 }
 
 void Model::smooth_gradients()

@@ -205,8 +205,8 @@ private:
   void assemble_mass();
   double load_power(double time_s) const;
   void stress_first(double dt);
-  void move_particles(double dt);
-  void map_back();
+  void move_particles(const StepInput& input);
+  void map_back(const StepInput& input);
   void smooth_gradients();
   void gather_bodies(mpm::Gather what, double dt);
   void gather_sheets(mpm::Gather what, double dt);
