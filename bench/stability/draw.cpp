@@ -41,9 +41,9 @@ std::string time_text(double end_s)
 /// Any method, any part of the stability bound.
 std::string numerics_text(Chance& c, bool skip_resting)
 {
-  const bool flip = c.one_in(2.5);
+  const bool simplex = c.one_in(2.5), flip = simplex || c.one_in(2.5);
   std::string text = "numerics:\n";
-  text += fmt::format("  shape: {}\n", c.one_in(2.5) ? "linear_simplex" : "bspline2");
+  text += fmt::format("  shape: {}\n", simplex ? "linear_simplex" : "bspline2");
   text += fmt::format("  transfer: {}\n", flip ? "flip" : "apic");
   if (flip)
     text += fmt::format("  flip_fraction: {}\n", c.any_of({ 1.0, 0.99, 0.9, 0.0 }));

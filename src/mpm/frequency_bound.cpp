@@ -164,13 +164,6 @@ struct ParticleElement {
       share[k] /= g.size[k] + std::numeric_limits<double>::min();
     return largest_eigenvalue(g, share, moduli) / (moduli.constrained() * inverse_dx);
   }
-  /// Calls `visit(node, s_i^e / x_e)`.
-  template <class Visitor>
-  void for_each_share(Visitor&& visit) const
-  {
-    for (std::size_t k = 0; k < g.count; ++k)
-      visit(g.node[k], volume * moduli.constrained() * inverse_dx * g.size[k]);
-  }
 };
 
 }  // namespace
@@ -210,8 +203,7 @@ void FrequencyBound<Dim>::add_mass(const Particles<Dim>& particles)
 }
 
 template <int Dim>
-void FrequencyBound<Dim>::add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness, std::size_t sheet,
-                                      std::size_t segment)
+void FrequencyBound<Dim>::add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness)
 {
   const AnyReach<Dim> near = reach_of<Dim>(method_.shape, a, *grid_), far = reach_of<Dim>(method_.shape, b, *grid_);
   const std::size_t first = segment_nodes_.size();
@@ -229,7 +221,7 @@ void FrequencyBound<Dim>::add_segment(const Vec<Dim>& a, const Vec<Dim>& b, doub
   }
   for (std::size_t at = first; at < segment_nodes_.size(); ++at)
     segment_nodes_[at].change = std::abs(segment_nodes_[at].change);
-  segments_.push_back({ stiffness, first, segment_nodes_.size() - first, sheet, segment, Vec<Dim>(0.5 * (a + b)) });
+  segments_.push_back({ stiffness, first, segment_nodes_.size() - first });
 }
 
 template <int Dim>
@@ -248,12 +240,6 @@ struct FrequencyBound<Dim>::SegmentElement {
     for (const SegmentNode* n = first; n < last; ++n)
       sum += n->change * nodal[n->node];
     return sum;
-  }
-  template <class Visitor>
-  void for_each_share(Visitor&& visit) const
-  {
-    for (const SegmentNode* n = first; n < last; ++n)
-      visit(n->node, stiffness * n->change);
   }
 };
 
@@ -337,7 +323,7 @@ void FrequencyBound<Dim>::keep_what_particles_hold(std::vector<double>& nodal)
 }
 
 template <int Dim>
-typename FrequencyBound<Dim>::Extreme FrequencyBound<Dim>::rounds(bool viscous)
+double FrequencyBound<Dim>::rounds(bool viscous)
 {
   for_each_node([&](std::size_t i) { first_[i] = second_[i] = 0.0; });
   for_each_element(viscous, [&](std::size_t, const auto& element) { element.scatter(1.0, first_); });
@@ -347,14 +333,14 @@ typename FrequencyBound<Dim>::Extreme FrequencyBound<Dim>::rounds(bool viscous)
     element.scatter(own_[e], second_);
   });
   divide_by_mass(second_);
-  Extreme extreme;
+  double largest = 0.0;
   for_each_element(viscous, [&](std::size_t e, const auto& element) {
     const double eigenvalue = element.eigenvalue(second_);
     // Zero only for what no node with mass reaches.
-    if (own_[e] > 0.0 && eigenvalue > extreme.value * own_[e])
-      extreme = { eigenvalue / own_[e], e };
+    if (own_[e] > 0.0 && eigenvalue > largest * own_[e])
+      largest = eigenvalue / own_[e];
   });
-  return extreme;
+  return largest;
 }
 
 template <int Dim>
@@ -370,50 +356,9 @@ typename FrequencyBound<Dim>::Result FrequencyBound<Dim>::bound()
 
   Result result;
   if (any_viscous)
-    result.damping_rate = rounds(true).value;
-  const Extreme extreme = rounds(false);
-  result.frequency_square = extreme.value;
-  worst_ = extreme.element;
+    result.damping_rate = rounds(true);
+  result.frequency_square = rounds(false);
   return result;
-}
-
-template <int Dim>
-typename FrequencyBound<Dim>::Culprit FrequencyBound<Dim>::culprit() const
-{
-  // The element with the largest eigenvalue may only suffer from another: look for the one that has the largest part
-  // of the stiffness on the node that matters most.
-  std::size_t node = 0, found = 0;
-  double most = 0.0;
-  for_each_element(false, [&](std::size_t e, const auto& element) {
-    if (e == worst_)
-      element.for_each_share([&](std::size_t i, double share) {
-        if (share * second_[i] > most) {
-          most = share * second_[i];
-          node = i;
-        }
-      });
-  });
-  if (!(most > 0.0))
-    return {};
-  most = 0.0;
-  for_each_element(false, [&](std::size_t e, const auto& element) {
-    element.for_each_share([&](std::size_t i, double share) {
-      if (i == node && own_[e] * share > most) {
-        most = own_[e] * share;
-        found = e;
-      }
-    });
-  });
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!(bodies_[b].elastic.constrained() > 0.0))
-      continue;
-    const Particles<Dim>& particles = *bodies_[b].particles;
-    if (found < particles.size())
-      return { Culprit::Kind::particle, b, found, position(particles, found) };
-    found -= particles.size();
-  }
-  const Segment& s = segments_[found];
-  return { Culprit::Kind::segment, s.sheet, s.segment, s.middle };
 }
 
 template class FrequencyBound<2>;

@@ -233,19 +233,7 @@ double GridUpdate<Dim>::apply_faces(Grid<Dim>& grid) const
   return taken;
 }
 
-template <int Dim>
-double stable_step(double constrained_modulus, double shear_modulus, double volume_per_mass, double dx)
-{
-  const double spread = 6.0 / (dx * dx);
-  const double lame = constrained_modulus - 2.0 * shear_modulus;
-  const double volumetric = spread * (Dim * lame + 2.0 * shear_modulus);  // all directions strained alike
-  const double shearing = 2.0 * spread * shear_modulus;
-  return 2.0 / std::sqrt(volume_per_mass * std::max(volumetric, shearing));
-}
-
 template class GridUpdate<2>;
 template class GridUpdate<3>;
-template double stable_step<2>(double, double, double, double);
-template double stable_step<3>(double, double, double, double);
 
 }  // namespace geocontainer_mpm::mpm

@@ -51,7 +51,8 @@ void describe(V& v, NumericsDescription& n)
             "founding paper's" },
           n.method.shape);
   v.value({ "transfer", optional, "",
-            "between particles and grid. `apic`: affine; `flip`: particles take the grid's change of velocity" },
+            "between particles and grid. `apic`: affine, not with `linear_simplex`; `flip`: particles take the grid's "
+            "change of velocity" },
           n.method.transfer);
   v.value({ "flip_fraction", optional, "", "1: pure FLIP; 0: particles take the grid's velocity itself (PIC)",
             n.method.transfer == Transfer::flip, "transfer `flip`" },

@@ -37,6 +37,10 @@ void check_grid(const GridDescription& grid)
 
 void check_method(const mpm::Discretisation& method)
 {
+  if (method.shape == mpm::Shape::linear_simplex && method.transfer != mpm::Transfer::flip)
+    refuse("numerics.transfer", to_text(method.transfer),
+           "must be flip with numerics.shape linear_simplex: apic keeps what nodes of next to no mass do, and gains "
+           "energy");
   if (method.mass == mpm::MassMatrix::consistent && method.transfer != mpm::Transfer::flip)
     refuse("numerics.mass", to_text(method.mass), "needs numerics.transfer flip, is " + to_text(method.transfer));
 }

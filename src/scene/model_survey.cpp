@@ -138,7 +138,7 @@ void Model::assemble_bound(std::size_t f)
     for (std::size_t i = 0; i < sheet.segments(); ++i) {
       const geotextile::SheetSegment segment = sheet.segment(i);
       if (segment.active)
-        field.bound.add_segment(sheet.node(segment.start), sheet.node(segment.end), segment.stiffness, s, i);
+        field.bound.add_segment(sheet.node(segment.start), sheet.node(segment.end), segment.stiffness);
     }
   }
 }

@@ -56,8 +56,10 @@ const Broken tables[] = {
 };
 
 const Broken methods[] = {
-  { "consistent mass needs flip", "transfer: flip\n  flip_fraction: 0.95", "transfer: apic", "numerics.mass",
-    "consistent", "needs numerics.transfer flip" },
+  { "consistent mass needs flip", "shape: linear_simplex\n  transfer: flip\n  flip_fraction: 0.95",
+    "shape: bspline2\n  transfer: apic", "numerics.mass", "consistent", "needs numerics.transfer flip" },
+  { "apic on triangles", "transfer: flip\n  flip_fraction: 0.95", "transfer: apic", "numerics.transfer", "apic",
+    "must be flip with numerics.shape linear_simplex" },
   { "fraction of what is not flip", "transfer: flip", "transfer: apic", "numerics.flip_fraction", "0.95",
     "applies only to transfer `flip`" },
   { "fraction above 1", "flip_fraction: 0.95", "flip_fraction: 1.1", "numerics.flip_fraction", "1.1", "in [0, 1]" },

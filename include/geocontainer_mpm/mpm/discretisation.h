@@ -8,8 +8,10 @@ namespace geocontainer_mpm::mpm {
 /// triangles (two a cell) or four-node tetrahedra (six a cell).
 enum class Shape { bspline2, linear_simplex };
 
-/// apic: affine (Jiang et al. 2015). flip: the grid's change of velocity, blended with its velocity by `flip_fraction`
-/// (Brackbill and Ruppel 1986; Stomakhin et al. 2013).
+/// apic: affine (Jiang et al. 2015); a scene may not take it with linear_simplex, whose nodes at the edge of the
+/// material have next to no mass: the affine matrix there is the element's velocity gradient, keeps what those nodes
+/// do, and gains energy. flip: the grid's change of velocity, blended with its velocity by `flip_fraction` (Brackbill
+/// and Ruppel 1986; Stomakhin et al. 2013).
 enum class Transfer { apic, flip };
 
 /// consistent: the full mass matrix of the particles, solved by conjugate gradients (Burgess, Sulsky and Brackbill
@@ -33,16 +35,5 @@ struct Discretisation {
   UpdateOrder update = UpdateOrder::usl;
   Smoothing smoothing = Smoothing::none;
 };
-
-/// Why these choices do not go together, or nullptr. Everything else does: both smoothings, for instance, serve both
-/// shapes (a B-spline's element is the grid's cell).
-inline const char* refusal(const Discretisation& d)
-{
-  if (!(d.flip_fraction >= 0.0 && d.flip_fraction <= 1.0))
-    return "flip_fraction must be in [0, 1]";
-  if (d.mass == MassMatrix::consistent && d.transfer != Transfer::flip)
-    return "a consistent mass needs the flip transfer: the affine one is built on lumped masses";
-  return nullptr;
-}
 
 }  // namespace geocontainer_mpm::mpm

@@ -87,14 +87,6 @@ double stable_step(double frequency_square, double damping_rate, const Discretis
 template <int Dim>
 class FrequencyBound {
 public:
-  /// Which element makes the frequency that high: for reports.
-  struct Culprit {
-    enum class Kind { none, particle, segment };
-    Kind kind = Kind::none;
-    std::size_t set = 0;                ///< body in the order of add_body(), or sheet as given to add_segment()
-    std::size_t element = 0;            ///< row of the body's arrays at the time, or segment as given
-    Vec<Dim> place = Vec<Dim>::Zero();  ///< m
-  };
   struct Result {
     double frequency_square = 0.0;  ///< rad^2/s^2
     double damping_rate = 0.0;      ///< 1/s
@@ -108,12 +100,10 @@ public:
   void add_mass(const Particles<Dim>& particles);
   /// A segment from `a` to `b` (m) that pulls with `stiffness` = J / l0, N/m per m of relative displacement. Leave out
   /// what is slack and stays so.
-  void add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness, std::size_t sheet, std::size_t segment);
+  void add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness);
   /// Three rounds over particles and segments, and three more where anything is viscous. One thread; no allocation
   /// once it has seen as many elements.
   Result bound();
-  /// After bound(), while the state is the same. Costs a round more.
-  Culprit culprit() const;
 
 private:
   struct Body {
@@ -123,8 +113,6 @@ private:
   struct Segment {
     double stiffness;
     std::size_t first, count;  ///< in segment_nodes_
-    std::size_t sheet, segment;
-    Vec<Dim> middle;
   };
   struct SegmentNode {
     std::uint32_t node;
@@ -132,13 +120,9 @@ private:
   };
 
   struct SegmentElement;
-  struct Extreme {
-    double value = 0.0;
-    std::size_t element = 0;  ///< in the order of for_each_element()
-  };
 
-  /// The three rounds over all elements, for stiffness or viscosity.
-  Extreme rounds(bool viscous);
+  /// The three rounds over all elements, for stiffness or viscosity: the bound, 1/s^2 or 1/s.
+  double rounds(bool viscous);
   /// S_i / m_i from S_i; p times that where the method feels p.
   void divide_by_mass(std::vector<double>& nodal);
   template <Shape shape>
@@ -155,7 +139,6 @@ private:
   std::vector<Segment> segments_;
   std::vector<SegmentNode> segment_nodes_;
   std::vector<double> first_, second_;  ///< nodal S_i, then S_i / m_i, of the first and second round
-  std::size_t worst_ = 0;               ///< element with the largest eigenvalue
   std::vector<double> held_;            ///< scratch of keep_what_particles_hold()
   std::vector<double> own_;             ///< x_e of the second round
 };

@@ -55,11 +55,4 @@ private:
   std::vector<typename ConsistentMass<Dim>::Value> old_, change_, momentum_, impulse_;  ///< of its active nodes
 };
 
-/// Largest stable step of the explicit scheme for elastic moduli (Pa) and the largest current volume per mass (m^3/kg),
-/// s: dt = 2 / omega with omega bounded by the largest eigenvalue of a single particle's "element" (Irons and Treharne
-/// 1971: the assembled system cannot exceed it when nodal mass is the sum of w_i m over particles). For quadratic
-/// B-splines sum_i |dw_i/dx|^2 / w_i <= 6 / dx^2 in each direction.
-template <int Dim>
-double stable_step(double constrained_modulus, double shear_modulus, double volume_per_mass, double dx);
-
 }  // namespace geocontainer_mpm::mpm
