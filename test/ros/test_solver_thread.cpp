@@ -228,9 +228,9 @@ TEST_F(SolverThreadTest, TheLogIsOverWhenItsSenderHasGone)
 
 TEST_F(SolverThreadTest, SolverFailureIsReportedAndResetRecovers)
 {
-  // No room below the lips: the container leaves the grid.
-  start({}, scene::Simulation(coarse_scene({ "grid.lower_m=[-6,-4.6]", "surfaces.bed.line_m=[[-6,-4.55],[6,-4.55]]",
-                                             "hull.friction=0", "surfaces.bed.friction=0", "time.end_s=200" }),
+  // No bed and no room below the lips: the container leaves the grid.
+  start({}, scene::Simulation(coarse_scene({ "grid.lower_m=[-6,-4.6]", "surfaces.bed.line_m=[[-6,-4.55],[-5.5,-4.55]]",
+                                             "hull.friction=0", "time.end_s=200" }),
                               1));
   for (int i = 0; i < 4000; ++i) {
     const double angle = std::min(0.6, 0.1 * 0.05 * i);
