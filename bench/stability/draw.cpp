@@ -38,8 +38,10 @@ std::string time_text(double end_s)
   return fmt::format("time:\n  end_s: {:.9g}\n  output_interval_s: {:.9g}\n", end_s, end_s / 40.0);
 }
 
-/// Any method, any part of the stability bound.
-std::string numerics_text(Chance& c, bool skip_resting)
+enum class Touching { no, yes };
+
+/// Any method that a scene may have, any part of the stability bound.
+std::string numerics_text(Chance& c, bool skip_resting, Touching touching)
 {
   const bool simplex = c.one_in(2.5), flip = simplex || c.one_in(2.5);
   std::string text = "numerics:\n";
@@ -47,13 +49,20 @@ std::string numerics_text(Chance& c, bool skip_resting)
   text += fmt::format("  transfer: {}\n", flip ? "flip" : "apic");
   if (flip)
     text += fmt::format("  flip_fraction: {}\n", c.any_of({ 1.0, 0.99, 0.9, 0.0 }));
-  if (flip && c.one_in(5))
+  if (flip && c.one_in(5) && touching == Touching::no)
     text += "  mass: consistent\n";
   text += fmt::format("  update: {}\n", c.any_of({ "usl", "usl", "usf", "musl" }));
   text += fmt::format("  smoothing: {}\n", c.any_of({ "none", "none", "cell_average", "nodal_mixed" }));
   text += fmt::format("  time_step_factor: {:.4g}\n", c.one_in(4) ? 1.0 : c.over_decades(0.1, 1.0));
   text += fmt::format("  skip_resting: {}\n", skip_resting);
   return text;
+}
+
+/// Value of `particles_per_cell`, and a `jitter` with it or not.
+std::string particles_text(Chance& c, int most)
+{
+  const int number = c.whole(1, most);
+  return c.one_in(3) ? fmt::format("{}\n    jitter: {:.3g}", number, c.between(0.0, 0.5)) : fmt::format("{}", number);
 }
 
 struct Solid {
@@ -172,12 +181,13 @@ std::string draw_drop(Chance& c)
   const double fall_s = std::sqrt(2.0 * 8.0 * space.dx / std::max(gravity, 1.0));
   const double end_s = std::min(3.0 * fall_s, 3000.0 * space.dx / solid.wave_speed());
   std::string text = "name: drop\n" + gravity_line + time_text(end_s) + grid_text(space, "roller", "free");
-  text += numerics_text(c, false) + "materials:\n" + solid_text(c, "stuff", solid, bagged && c.one_in(2));
+  text +=
+      numerics_text(c, false, Touching::yes) + "materials:\n" + solid_text(c, "stuff", solid, bagged && c.one_in(2));
   const double floor = bottom - (c.one_in(2) ? c.between(0.5, 2.0) : 0.0);
   text += fmt::format(
       "bodies:\n  load:\n    material: stuff\n    shape: {{ {} }}\n    particles_per_cell: {}\n"
       "    initial_velocity_m_per_s: {}\n",
-      shape_text(c, space, 0.5 * (space.width - width), bottom, width, height), c.whole(1, 4),
+      shape_text(c, space, 0.5 * (space.width - width), bottom, width, height), particles_text(c, 4),
       point(c.between(-1.0, 1.0), c.between(-3.0, 0.0)));
   if (bagged) {
     const double around = 2.0 * std::min(width, height) * space.dx;  // not longer than any outline
@@ -195,11 +205,11 @@ std::string draw_column(Chance& c)
   Solid solid = any_solid(c, 1e5, 1e8);
   std::string text = "name: column\n" + time_text(std::min(1.5, 4000.0 * space.dx / solid.wave_speed()));
   text += grid_text(space, c.any_of({ "roller", "fixed" }), c.any_of({ "roller", "fixed" }));
-  text += numerics_text(c, c.one_in(2)) + "materials:\n" + solid_text(c, "sand", solid, true);
+  text += numerics_text(c, c.one_in(2), Touching::no) + "materials:\n" + solid_text(c, "sand", solid, true);
   return text + fmt::format(
                     "bodies:\n  column:\n    material: sand\n    shape: {{ box: {{ lower_m: [0, 0], upper_m: {} }} }}\n"
                     "    particles_per_cell: {}\n    initial_stress: {}\n",
-                    point(c.between(3.0, 7.0) * space.dx, c.between(3.0, 10.0) * space.dx), c.whole(1, 4),
+                    point(c.between(3.0, 7.0) * space.dx, c.between(3.0, 10.0) * space.dx), particles_text(c, 4),
                     c.any_of({ "none", "none", "k0" }) == std::string("k0") ? "k0\n    k0: 1.0" : "none");
 }
 
@@ -217,7 +227,7 @@ std::string draw_stack(Chance& c)
   const double fastest = std::max(low.wave_speed(), high.wave_speed());
   std::string text = "name: stack\n" + gravity_line +
                      time_text(std::min({ 1.0, 4000.0 * space.dx / fastest, 400.0 * space.dx / slowest }));
-  text += grid_text(space, "roller", "free") + numerics_text(c, false);
+  text += grid_text(space, "roller", "free") + numerics_text(c, false, Touching::yes);
   text += "materials:\n" + solid_text(c, "lower", low, false) + solid_text(c, "upper", high, false);
   const bool apart = c.one_in(1.5);
   const double width = c.between(5.0, 9.0), height = c.between(3.0, 6.0), top = 4.0 + height;
@@ -226,7 +236,7 @@ std::string draw_stack(Chance& c)
     return fmt::format(
         "  {0}:\n    material: {0}\n    shape: {{ {1} }}\n    particles_per_cell: {2}\n"
         "    initial_velocity_m_per_s: {3}\n{4}",
-        name, shape_text(c, space, 10.0 - 0.5 * width, z, width, height), c.whole(1, 4),
+        name, shape_text(c, space, 10.0 - 0.5 * width, z, width, height), particles_text(c, 4),
         point(c.between(-0.3, 0.3) * v, v), apart ? fmt::format("    velocity_field: {}\n", name) : "");
   };
   text += "bodies:\n" + body("lower", 4.0, 0.0) + body("upper", top + c.any_of({ 0.0, 0.0, 0.5, 1.3 }), -speed);
@@ -245,13 +255,13 @@ std::string draw_sheet(Chance& c)
   carry(solid, solid.density * gravity * 5.0 * space.dx);
   const double end_s = std::min(1.0, 3000.0 * space.dx / solid.wave_speed());
   std::string text = "name: sheet\n" + gravity_line + time_text(end_s) + grid_text(space, "roller", "roller");
-  text += numerics_text(c, false) + "materials:\n" + solid_text(c, "stuff", solid, false);
+  text += numerics_text(c, false, Touching::yes) + "materials:\n" + solid_text(c, "stuff", solid, false);
   const bool ring = c.one_in(2), weight = !ring && c.one_in(1.5), apart = weight && c.one_in(2);
   if (weight)
     text += fmt::format(
         "bodies:\n  weight:\n    material: stuff\n    shape: {{ {} }}\n    particles_per_cell: {}\n"
         "    initial_velocity_m_per_s: [0, {:.4g}]\n{}",
-        shape_text(c, space, 9.5, 12.6, 5.0, 5.0), c.whole(1, 4), -c.between(0.0, 2.0),
+        shape_text(c, space, 9.5, 12.6, 5.0, 5.0), particles_text(c, 4), -c.between(0.0, 2.0),
         apart ? "    velocity_field: weight\n" : "");
   text += "geotextiles:\n  sheet:\n";
   if (ring) {
@@ -285,11 +295,11 @@ std::string draw_bar(Chance& c)
   const double end_s = 1500.0 * space.dx / solid.wave_speed();
   const double stress = c.over_decades(1e-6, 0.1) * solid.young;
   std::string text = "name: bar\ngravity_m_per_s2: [0, 0]\n" + time_text(end_s) + grid_text(space, "free", "free");
-  text += numerics_text(c, false) + "materials:\n" + solid_text(c, "steel", solid, false);
+  text += numerics_text(c, false, Touching::no) + "materials:\n" + solid_text(c, "steel", solid, false);
   text += fmt::format(
       "bodies:\n  bar:\n    material: steel\n    shape: {{ box: {{ lower_m: {}, upper_m: {} }} }}\n"
       "    particles_per_cell: {}\n",
-      point(0.4, 0.5 + c.between(0.0, 0.1)), point(1.9 + c.between(0.0, 0.2), 0.85), c.whole(1, 4));
+      point(0.4, 0.5 + c.between(0.0, 0.1)), point(1.9 + c.between(0.0, 0.2), 0.85), particles_text(c, 4));
   text += fmt::format("supports:\n  root:\n    region: {{ lower_m: [0, 0], upper_m: {} }}\n", point(0.5, 1.4));
   if (c.one_in(3))
     text += fmt::format("    velocity_table: [[0, 0, 0], [{:.9g}, {:.6g}, {:.6g}], [{:.9g}, 0, 0]]\n", 0.1 * end_s,
@@ -309,7 +319,8 @@ std::string draw_fluid(Chance& c)
   const double density = c.between(1000.0, 2000.0), bulk = c.over_decades(1e5, 1e8);
   const bool bingham = c.one_in(2);
   std::string text = "name: fluid\n" + time_text(std::min(1.0, 3000.0 * space.dx / std::sqrt(bulk / density)));
-  text += grid_text(space, c.any_of({ "roller", "fixed" }), c.any_of({ "roller", "fixed" })) + numerics_text(c, false);
+  text += grid_text(space, c.any_of({ "roller", "fixed" }), c.any_of({ "roller", "fixed" })) +
+          numerics_text(c, false, Touching::no);
   text += fmt::format(
       "materials:\n  slurry:\n    law: {}\n    density_kg_per_m3: {:.6g}\n    bulk_modulus_pa: {:.6g}\n"
       "    viscosity_pa_s: {:.6g}\n",
@@ -322,7 +333,7 @@ std::string draw_fluid(Chance& c)
          fmt::format(
              "bodies:\n  slurry:\n    material: slurry\n    shape: {{ box: {{ lower_m: [0, 0], upper_m: {} }} }}\n"
              "    particles_per_cell: {}\n    initial_stress: {}\n",
-             point(full ? 2.4 : c.between(0.4, 1.2), c.between(0.3, 0.9)), c.whole(1, 4),
+             point(full ? 2.4 : c.between(0.4, 1.2), c.between(0.3, 0.9)), particles_text(c, 4),
              c.one_in(2) ? "hydrostatic" : "none");
 }
 
@@ -332,7 +343,7 @@ std::string draw_rest(Chance& c, double steps)
   const Space space{ 0.1, 4, 4 };
   Solid solid = any_solid(c, 1e6, 1e7);
   std::string text = "name: rest\n" + time_text(steps * 0.3 * space.dx / solid.wave_speed());
-  text += grid_text(space, "roller", c.any_of({ "roller", "fixed" })) + numerics_text(c, false);
+  text += grid_text(space, "roller", c.any_of({ "roller", "fixed" })) + numerics_text(c, false, Touching::no);
   text += "materials:\n" + solid_text(c, "block", solid, false);
   return text +
          fmt::format(
@@ -357,12 +368,12 @@ std::string draw_release(Chance& c)
       "grid:\n  cell_size_m: {}\n  lower_m: [-8, -12]\n  upper_m: [8, 4]\n"
       "  faces: {{ y_min: free, y_max: free, z_min: free, z_max: free }}\n",
       dx);
-  text += numerics_text(c, c.one_in(2)) + "materials:\n" + solid_text(c, "sand", sand, !c.one_in(4));
+  text += numerics_text(c, c.one_in(2), Touching::yes) + "materials:\n" + solid_text(c, "sand", sand, !c.one_in(4));
   const double area = c.between(3.0, 10.8), outline = 1.25 * std::sqrt(4.0 * pi * area);
   text += fmt::format(
       "bodies:\n  fill:\n    material: sand\n    shape: {{ hopper_fill: {{ area_m2: {:.6g} }} }}\n"
       "    particles_per_cell: {}\n",
-      area, c.whole(1, 3));
+      area, particles_text(c, 3));
   const Space space{ dx, 0, 0 };
   text += fmt::format("geotextiles:\n  container:\n    encloses: fill\n    slack: {:.4g}\n",
                       c.any_of({ 0.0, 0.1, 0.3, 1.0 }));

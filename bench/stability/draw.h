@@ -14,7 +14,8 @@ struct Drawing {
   bool twice = false;  ///< runs again after reset(), and on two threads: the same bits must come out
 };
 
-/// The scene of a seed: the same text on every machine.
+/// The scene of a seed: the same text on every machine, by builds of one compiler (the order in which the arguments of a
+/// call draw is its own).
 Drawing draw(std::uint64_t seed);
 
 }  // namespace geocontainer_mpm::stability

@@ -150,6 +150,15 @@ double Sheet::external_power() const
   return power;
 }
 
+double Sheet::tension_power() const
+{
+  double power = 0.0;
+  for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      power -= (nodes_.force[d][i] - external_[d][i]) * nodes_.velocity[d][i];
+  return power;
+}
+
 void Sheet::gauge_tension(std::vector<double>& result) const
 {
   // All rest lengths are equal, so the window is a number of segments: the odd number nearest to the gauge length.

@@ -23,7 +23,7 @@ inline constexpr std::size_t nodes_per_element = shape == Shape::linear_simplex 
 /// Stress components that act within the space of the grid: the first of the order in material/law.h.
 template <int Dim>
 inline constexpr std::size_t in_plane = Dim == 2 ? 3 : 6;
-/// Numbers kept of an element: volume of its particles, and a sum of stresses or of one rate.
+/// Numbers kept of an element: volume of its particles, and sums of at most as many values as a stress has.
 template <int Dim>
 inline constexpr std::size_t element_stride = 1 + in_plane<Dim>;
 
@@ -136,14 +136,32 @@ std::array<double, in_plane<Dim>> damped_stress(const Particles<Dim>& particles,
   return s;
 }
 
-/// What stands for the particle's stress after average_stress().
-template <int Dim, Shape shape>
-std::array<double, in_plane<Dim>> mean_stress(const Particles<Dim>& particles, std::size_t p, const double* means,
-                                              const Grid<Dim>& grid)
+/// Mean of the normal stresses within the space of the grid.
+template <int Dim>
+double isotropic_part(const std::array<double, in_plane<Dim>>& stress)
 {
-  const double* mean = means + element_stride<Dim> * element_of<Dim, shape>(position_of(particles, p), grid);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < Dim; ++i)
+    sum += stress[i];
+  return sum / Dim;
+}
+
+/// What stands for the particle's stress after smooth_stress() of this kind.
+template <int Dim, Shape shape>
+std::array<double, in_plane<Dim>> smoothed_stress(Smoothing smoothing, const Particles<Dim>& particles, std::size_t p,
+                                                  const StressDamping& damping, const double* elements,
+                                                  const Grid<Dim>& grid)
+{
+  const double* element = elements + element_stride<Dim> * element_of<Dim, shape>(position_of(particles, p), grid);
   std::array<double, in_plane<Dim>> s;
-  std::copy_n(mean + 1, s.size(), s.begin());
+  if (smoothing == Smoothing::cell_average) {
+    std::copy_n(element + 1, s.size(), s.begin());
+  } else {
+    s = damped_stress<Dim>(particles, p, damping);
+    const double change = element[1] - isotropic_part<Dim>(s);
+    for (std::size_t i = 0; i < Dim; ++i)
+      s[i] += change;
+  }
   return s;
 }
 
@@ -160,10 +178,10 @@ void for_each_in_strips(const Strips& strips, ThreadTeam& team, Work&& work)
     });
 }
 
-/// Mean stress (viscous part included) of every element that holds particles of the body, times what the volume of its
-/// particles has to be multiplied with: see body_to_grid().
+/// By element, what the forces are made of in place of the stress of particles, viscous part included: see
+/// body_to_grid().
 template <int Dim, Shape shape>
-const double* average_stress(const Particles<Dim>& particles, const Strips& strips, const StressDamping& damping,
-                             Grid<Dim>& grid, ThreadTeam& team);
+const double* smooth_stress(Smoothing smoothing, const Particles<Dim>& particles, const Strips& strips,
+                            const StressDamping& damping, Grid<Dim>& grid, ThreadTeam& team);
 
 }  // namespace geocontainer_mpm::mpm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "geocontainer_mpm/mpm/bspline.h"
@@ -160,8 +159,8 @@ struct ParticleElement {
     std::array<double, Gradients<Dim, shape>::count> share;
     for (std::size_t k = 0; k < g.count; ++k)
       share[k] = nodal[g.node[k]];
-    for (std::size_t k = 0; k < g.count; ++k)  // a node without gradient: nothing over the smallest number is nothing
-      share[k] /= g.size[k] + std::numeric_limits<double>::min();
+    for (std::size_t k = 0; k < g.count; ++k)  // a node without gradient, of a particle amid its cell, has no share
+      share[k] = g.size[k] > 0.0 ? share[k] / g.size[k] : 0.0;
     return largest_eigenvalue(g, share, moduli) / (moduli.constrained() * inverse_dx);
   }
 };

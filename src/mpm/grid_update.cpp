@@ -44,6 +44,7 @@ void add(const MotionSums<Dim>& part, MotionSums<Dim>& total)
 {
   total.kinetic_before += part.kinetic_before;
   total.kinetic_after += part.kinetic_after;
+  total.power_before += part.power_before;
   total.damped += part.damped;
   total.momentum_before += part.momentum_before;
   total.momentum_after += part.momentum_after;
@@ -104,13 +105,14 @@ MotionSums<Dim> GridUpdate<Dim>::update_lumped(Grid<Dim>& grid, double kick, dou
           continue;
         }
         const double inverse_mass = 1.0 / mass;
-        double before = 0.0, after = 0.0;
+        double before = 0.0, after = 0.0, power = 0.0;
         for (int c = 0; c < Dim; ++c) {
           const double momentum = node[c];
           const double forced = momentum + kick * grid.forces()[i][c];
           sums.momentum_before[c] += momentum;
           sums.momentum_after[c] += keep * forced;
           before += momentum * momentum;
+          power += momentum * grid.forces()[i][c];
           after += forced * forced;
           if constexpr (keeps_old)
             grid.kept()[i][c] = momentum * inverse_mass;
@@ -118,6 +120,7 @@ MotionSums<Dim> GridUpdate<Dim>::update_lumped(Grid<Dim>& grid, double kick, dou
         }
         sums.kinetic_before += 0.5 * inverse_mass * before;
         sums.kinetic_after += 0.5 * inverse_mass * after * keep * keep;
+        sums.power_before += inverse_mass * power;
         sums.damped += 0.5 * inverse_mass * after * (1.0 - keep * keep);
       }
     });
@@ -157,6 +160,7 @@ MotionSums<Dim> GridUpdate<Dim>::update_consistent(Grid<Dim>& grid, double kick,
     MotionSums<Dim> sums;
     sums.kinetic_before = 0.5 * (momentum_[n] * old_[n]).sum();
     sums.kinetic_after = 0.5 * (forced * velocity).sum() * keep * keep;
+    sums.power_before = (grid.forces()[active[n]].template head<Dim>() * old_[n]).sum();
     sums.damped = 0.5 * (forced * velocity).sum() * (1.0 - keep * keep);
     sums.momentum_before = momentum_[n].matrix();
     sums.momentum_after = keep * forced.matrix();

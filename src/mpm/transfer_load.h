@@ -62,7 +62,8 @@ enum class Push { nothing, stress, extra, external };
 struct Extra {
   bool external_force;
   StressDamping damping;
-  const double* means;  ///< of cell_average (see average_stress()), or nullptr
+  Smoothing smoothing;
+  const double* elements;  ///< of smooth_stress(), or nullptr
 };
 
 /// Vectors per weight and per gradient, and momentum per offset.
@@ -122,8 +123,8 @@ GEOCONTAINER_MPM_INLINE Load<Dim> load_of(const Particles<Dim>& particles, std::
     const double factor = -particles.volume[p];
     std::array<double, in_plane<Dim>> changed;
     if constexpr (push == Push::extra) {
-      if (extra.means)
-        changed = mean_stress<Dim, shape>(particles, p, extra.means, grid);
+      if (extra.elements)
+        changed = smoothed_stress<Dim, shape>(extra.smoothing, particles, p, extra.damping, extra.elements, grid);
       else
         changed = damped_stress<Dim>(particles, p, extra.damping);
     }

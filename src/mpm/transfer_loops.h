@@ -49,18 +49,20 @@ void TransferLoops<Dim, shape>::body(const Discretisation& discretisation, const
             Extra{});
     return;
   }
-  const bool averaged = discretisation.smoothing == Smoothing::cell_average;
+  const Smoothing smoothing = discretisation.smoothing;
+  const bool smoothed = smoothing != Smoothing::none;
   const bool damped = terms.damping.lambda != 0.0 || terms.damping.shear != 0.0;
   const bool all = terms.part == Part::all;
-  if (!averaged && !damped && !terms.external_force) {
+  if (!smoothed && !damped && !terms.external_force) {
     scatter(!all     ? scatter_strips<Dim, shape, Part::force, false, Push::stress>
             : affine ? scatter_strips<Dim, shape, Part::all, true, Push::stress>
                      : scatter_strips<Dim, shape, Part::all, false, Push::stress>,
             Extra{});
     return;
   }
-  const Extra extra{ terms.external_force, terms.damping,
-                     averaged ? average_stress<Dim, shape>(particles, strips, terms.damping, grid, team) : nullptr };
+  const Extra extra{ terms.external_force, terms.damping, smoothing,
+                     smoothed ? smooth_stress<Dim, shape>(smoothing, particles, strips, terms.damping, grid, team)
+                              : nullptr };
   scatter(!all     ? scatter_strips<Dim, shape, Part::force, false, Push::extra>
           : affine ? scatter_strips<Dim, shape, Part::all, true, Push::extra>
                    : scatter_strips<Dim, shape, Part::all, false, Push::extra>,

@@ -130,6 +130,10 @@ void describe(V& v, BodyDescription& b)
   v.section({ "shape", required, "", "exactly one of the five below" }, b.shape);
   v.value({ "particles_per_cell", optional, "", "particles in each direction of a cell" }, b.particles_per_cell,
           closed(1, 4));
+  v.value({ "jitter", optional, "",
+            "furthest that a particle lies off its lattice in each direction, over the "
+            "spacing; random, and the same in every run" },
+          b.jitter, closed(0.0, 0.5));
   v.value({ "velocity_field", optional, "",
             "bodies that name the same field stick together where they meet; fields touch by `contacts`. Absent: the "
             "field `common`" },

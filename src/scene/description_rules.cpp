@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <string>
 
 #include "description_leaf.h"
 #include "description_shapes.h"
@@ -109,10 +111,28 @@ void check_inside(const std::string& key, const Eigen::AlignedBox2d& box, const 
       fmt::format("must lie within the grid, {} to {}", to_text(grid.lower_m), to_text(grid.upper_m)));
 }
 
+/// Contact and held ends are solved with lumped masses: beside a consistent one their impulses would make energy.
+void check_consistent_mass(const SceneDescription& scene)
+{
+  if (scene.numerics.method.mass != mpm::MassMatrix::consistent)
+    return;
+  const bool held = std::any_of(scene.geotextiles.begin(), scene.geotextiles.end(),
+                                [](const auto& sheet) { return sheet.second.start.held || sheet.second.end.held; });
+  const char* touching = scene.hull                ? "a hull"
+                         : !scene.surfaces.empty() ? "surfaces"
+                         : !scene.contacts.empty() ? "contacts"
+                         : held                    ? "a held end of a geotextile"
+                                                   : nullptr;
+  if (touching)
+    refuse("numerics.mass", to_text(scene.numerics.method.mass),
+           std::string("must be lumped in a scene with ") + touching + ": contact acts with lumped masses");
+}
+
 void check_rules(const SceneDescription& scene)
 {
   check_grid(scene.grid);
   check_method(scene.numerics.method);
+  check_consistent_mass(scene);
   if (scene.bodies.empty() && scene.geotextiles.empty())
     refuse("bodies", "none", "must name at least one body, or geotextiles at least one sheet");
   check_bodies(scene);

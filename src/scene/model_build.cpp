@@ -150,7 +150,10 @@ void Model::build_bodies(const SceneDescription& scene)
   for (const auto& [name, description] : scene.bodies) {
     const material::Parameters& material = scene.materials.at(description.material);
     const std::vector<Vec2> shape = outline(description.shape, scene.hull, scene.grid.cell_size_m);
-    const Sampling sampling = sample(description.shape, shape, scene.grid.cell_size_m / description.particles_per_cell);
+    const double spacing = scene.grid.cell_size_m / description.particles_per_cell;
+    Sampling sampling = sample(description.shape, shape, spacing);
+    if (description.jitter > 0.0)
+      jitter(description.jitter * spacing, sampling.points);
     if (sampling.points.empty())
       throw InputError(scene.source, "bodies." + name + ".shape", "", "must be large enough to hold a particle");
 

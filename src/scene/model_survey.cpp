@@ -14,7 +14,7 @@ namespace {
 /// The stability bound is assembled anew when particles have moved by this many cells, or after so many steps; for
 /// linear simplices, whose nodes may be of any smallness, in every step (frequency_bound.h).
 constexpr double bound_valid_cells = 0.1;
-constexpr int bound_valid_steps = 20;
+constexpr int bound_valid_steps = 50;
 
 /// By how much a consistent mass matrix raises the largest squared frequency: its smallest eigenvalue relative to the
 /// lumped one is at worst the lumped part of it.

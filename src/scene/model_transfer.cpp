@@ -10,7 +10,6 @@ namespace {
 
 using mpm::Gather;
 using mpm::Part;
-using mpm::Smoothing;
 using mpm::UpdateOrder;
 
 Vec2 force_at(const SheetEnd& end, double time_s)
@@ -136,8 +135,7 @@ void Model::stress_first(double dt)
 void Model::move_particles(const StepInput& input)
 {
   const double dt = input.dt_s;
-  const bool mixed = method_.smoothing == Smoothing::nodal_mixed;
-  if (method_.update == UpdateOrder::usl && !mixed) {
+  if (method_.update == UpdateOrder::usl && !mpm::smooths_gradients(method_)) {
     gather_bodies(Gather::all, dt);
     gather_sheets(Gather::motion, dt);
   } else if (method_.update == UpdateOrder::musl) {
@@ -180,9 +178,8 @@ void Model::map_back(const StepInput& input)
 
 void Model::smooth_gradients()
 {
-  if (method_.smoothing == Smoothing::nodal_mixed)
-    for (Body& body : now_.bodies)
-      mpm::smooth_volume_rate(method_.shape, body.strips, body.particles, fields_[body.field].grid, *team_);
+  for (Body& body : now_.bodies)
+    mpm::smooth_gradients(method_, body.strips, body.particles, fields_[body.field].grid, *team_);
 }
 
 void Model::gather_bodies(Gather what, double dt)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <fmt/format.h>
@@ -199,6 +200,21 @@ std::vector<std::vector<Vec2>> boundary_lines(const ShapeDescription& shape, con
     std::reverse(lines.back().begin(), lines.back().end());
   }
   return lines;
+}
+
+void jitter(double size, std::vector<Vec2>& points)
+{
+  std::uint64_t state = 2016;
+  const auto random = [&] {  // SplitMix64 (Steele, Lea and Flood 2014), to [-1, 1)
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return 0x1p-52 * static_cast<double>((z ^ (z >> 31)) >> 11) - 1.0;
+  };
+  for (Vec2& x : points) {
+    x[0] += size * random();
+    x[1] += size * random();
+  }
 }
 
 geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene)

@@ -103,11 +103,7 @@ private:
     last_ = dt;
   }
   void gather(Gather what, double dt) { testing::gather(choice_, grid_, dt, what, particles_); }
-  void smooth()
-  {
-    if (choice_.smoothing == Smoothing::nodal_mixed)
-      smooth_volume_rate(choice_.shape, strips_, particles_, grid_, alone_);
-  }
+  void smooth() { smooth_gradients(choice_, strips_, particles_, grid_, alone_); }
   void advance_stress(double dt)
   {
     smooth();

@@ -441,6 +441,31 @@ TEST(FrequencyBound, NothingOnTheGridHasNoFrequency)
   EXPECT_EQ(result.damping_rate, 0.0);
 }
 
+// Amid a cell a B-spline's outer nodes feel exactly nothing, while neighbours give them mass.
+TEST(FrequencyBound, OfParticlesAmidTheirCellsIsSafe)
+{
+  for (const int side : { 1, 3 })
+    for (const int rows : { 1, 3 }) {
+      Setting<2> setting{ Shape::bspline2, Grid<2>(Vec2(0, 0), Vec2(2, 2), 0.25, free_faces<2>()), {}, {}, {}, {}, {} };
+      setting.elastic = elastic_moduli(1e6, 0.2);
+      const double spacing = 0.25 / side;
+      open(everything(setting.grid), setting.grid);
+      setting.particles.resize(static_cast<std::size_t>(4 * side * rows));
+      for (std::size_t p = 0; p < setting.particles.size(); ++p) {
+        const Vec2 x(0.5 + spacing * (static_cast<double>(p % static_cast<std::size_t>(4 * side)) + 0.5),
+                     0.5 + spacing * (static_cast<double>(p / static_cast<std::size_t>(4 * side)) + 0.5));
+        set_vector<2>(setting.particles.position, p, x);
+        setting.particles.volume[p] = spacing * spacing;
+        setting.particles.mass[p] = 2000.0 * spacing * spacing;
+        add_mass<2>(setting.shape, x, setting.particles.mass[p], setting.grid);
+      }
+      const double truth = largest_eigenvalue(scaled_matrix(setting, setting.elastic, false));
+      const double ratio = std::sqrt(bound_of(setting).frequency_square / truth);
+      EXPECT_GE(ratio, 1.0 - round_off) << side << " a cell, " << rows << " rows";
+      EXPECT_LE(ratio, 1.4);
+    }
+}
+
 TEST(FrequencyBound, IsTheSameWhenAskedAgain)
 {
   Chance chance(9);

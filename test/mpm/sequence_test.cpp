@@ -154,8 +154,7 @@ TYPED_TEST(Sequences, GiveTheSameBitsWithAnyNumberOfThreads)
       update.apply_forces(choice, grid, 1e-4, 0.1, team);
       update.apply_faces(grid);
       gather(choice, grid, 1e-4, Gather::gradient, moved);
-      if (choice.smoothing == Smoothing::nodal_mixed)
-        smooth_volume_rate(choice.shape, strips, moved, grid, team);
+      smooth_gradients(choice, strips, moved, grid, team);
       gather(choice, grid, 1e-4, Gather::motion, moved);
       return moved;
     };

@@ -94,7 +94,7 @@ numerics:
   shape: linear_simplex
   transfer: flip
   flip_fraction: 0.95
-  mass: consistent
+  mass: lumped
   update: musl
   smoothing: cell_average
   time_step_factor: 0.5
@@ -134,6 +134,7 @@ bodies:
     material: sand
     shape: { hopper_fill: { area_m2: 3 } }
     particles_per_cell: 3
+    jitter: 0.25
     initial_stress: k0
     k0: 0.46
   square:

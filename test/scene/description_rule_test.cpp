@@ -56,8 +56,11 @@ const Broken tables[] = {
 };
 
 const Broken methods[] = {
-  { "consistent mass needs flip", "shape: linear_simplex\n  transfer: flip\n  flip_fraction: 0.95",
-    "shape: bspline2\n  transfer: apic", "numerics.mass", "consistent", "needs numerics.transfer flip" },
+  { "consistent mass needs flip", "shape: linear_simplex\n  transfer: flip\n  flip_fraction: 0.95\n  mass: lumped",
+    "shape: bspline2\n  transfer: apic\n  mass: consistent", "numerics.mass", "consistent",
+    "needs numerics.transfer flip" },
+  { "consistent mass where something touches", "mass: lumped", "mass: consistent", "numerics.mass", "consistent",
+    "must be lumped in a scene with a hull" },
   { "apic on triangles", "transfer: flip\n  flip_fraction: 0.95", "transfer: apic", "numerics.transfer", "apic",
     "must be flip with numerics.shape linear_simplex" },
   { "fraction of what is not flip", "transfer: flip", "transfer: apic", "numerics.flip_fraction", "0.95",

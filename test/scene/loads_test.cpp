@@ -147,5 +147,30 @@ bodies:
   EXPECT_EQ(simulation.energy().potential, 0.0);
 }
 
+TEST(Bodies, JitterMovesParticlesWithinTheirPlaces)
+{
+  const std::string text = bar("z_min: roller, z_max: roller", R"(
+time: { end_s: 0.1 }
+bodies:
+  bar: { material: rubber, shape: { box: { lower_m: [0, 0], upper_m: [1, 0.1] } } }
+)");
+  const auto places = [&](const std::string& jitter) {
+    Simulation simulation(parse_scene(text, "bar", { "bodies.bar.jitter=" + jitter }), 1);
+    return simulation.frame().soil.front().position;
+  };
+  const std::vector<Vec2> lattice = places("0"), moved = places("0.4");
+  EXPECT_EQ(moved, places("0.4"));
+  double furthest = 0.0;
+  Vec2 mean = Vec2::Zero();
+  for (std::size_t p = 0; p < lattice.size(); ++p) {
+    const Vec2 offset = moved[p] - lattice[p];
+    furthest = std::max(furthest, offset.cwiseAbs().maxCoeff());
+    mean += offset / static_cast<double>(lattice.size());
+  }
+  EXPECT_LE(furthest, 0.4 * 0.025);
+  EXPECT_GE(furthest, 0.9 * 0.4 * 0.025);  // of 160 particles
+  EXPECT_LE(mean.norm(), 0.1 * 0.4 * 0.025 * 2.0);
+}
+
 }  // namespace
 }  // namespace geocontainer_mpm::scene

@@ -107,7 +107,7 @@ TEST(DefaultRelease, IsReleasedWithBalancesClosedAndNothingLeaks)
   EXPECT_EQ(status.outcome, Outcome::released);
   EXPECT_TRUE(status.resting);
   EXPECT_NEAR(status.soil_volume_m2, status.soil_volume_initial_m2, 0.03 * status.soil_volume_initial_m2);
-  EXPECT_LT(simulation.energy().relative_balance_error, 0.03);
+  EXPECT_LT(simulation.energy().relative_balance_error, 0.003);
   EXPECT_LT(simulation.counters().momentum_error, 1e-11);
   // Every form of dissipation takes energy, none gives.
   EXPECT_GT(simulation.energy().dissipated_plastic, 0.0);

@@ -77,6 +77,8 @@ public:
   /// Loads of the last update_forces() times the nodes' present velocities, W/m. The work over a step that kicks for
   /// the time `kick` is kick times the mean of this before and after the step.
   double external_power() const;
+  /// What the tensions of the last update_forces() store in a time at the nodes' present velocities, W/m.
+  double tension_power() const;
 
   /// Bound on the square of the largest frequency that the sheet adds to the grid whose nodal masses stand in `grid`,
   /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there. Segments

@@ -36,4 +36,11 @@ struct Discretisation {
   Smoothing smoothing = Smoothing::none;
 };
 
+/// Does the law see other gradients than those at the particles? See smooth_gradients().
+inline bool smooths_gradients(const Discretisation& d)
+{
+  return d.smoothing == Smoothing::nodal_mixed ||
+         (d.smoothing == Smoothing::cell_average && d.shape == Shape::bspline2);
+}
+
 }  // namespace geocontainer_mpm::mpm

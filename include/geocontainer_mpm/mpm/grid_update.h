@@ -18,6 +18,7 @@ template <int Dim>
 struct MotionSums {
   double kinetic_before = 0.0;                  ///< of the transferred momentum, J (J/m in plane strain)
   double kinetic_after = 0.0;                   ///< after the forces, before contact, J
+  double power_before = 0.0;                    ///< of the forces on the transferred velocities, W
   double damped = 0.0;                          ///< taken by mass-proportional damping, J
   Vec<Dim> momentum_before = Vec<Dim>::Zero();  ///< kg m/s
   Vec<Dim> momentum_after = Vec<Dim>::Zero();

@@ -14,10 +14,10 @@
 ///   musl: open, scatter(all), forces, faces, gather(velocity), Grid::keep_velocities, open, scatter(momentum),
 ///         velocities, gather(gradient), gather(position), law
 ///
-/// Nodal mixed smoothing acts on gradients while the particles are where the gradients were taken: after
-/// gather(gradient) comes smooth_volume_rate(); with usl, gather(all) becomes gather(gradient), smooth_volume_rate(),
-/// gather(motion). Sheets take part in every scatter and gather but those of gradients; with usl and usf they gather
-/// `motion`.
+/// Smoothing acts on gradients while the particles are where the gradients were taken: after gather(gradient) comes
+/// smooth_gradients(); with usl, gather(all) becomes gather(gradient), smooth_gradients(), gather(motion) where
+/// gradients change by it. Sheets take part in every scatter and gather but those of gradients; with usl and usf they
+/// gather `motion`.
 
 #include <cstddef>
 
@@ -49,11 +49,13 @@ struct BodyTerms {
 enum class Gather { all, motion, velocity, gradient, position };
 
 /// Adds a sorted body: mass, momentum m v (APIC: m (v + C r)), gravity on `weight_mass` and internal force
-/// -V sigma grad w. With cell_average, sigma is the volume-weighted mean of the body's particles in the element. A
-/// simplex that the body fills to at least 90 % is integrated with its own volume, any other, and cells of B-splines,
-/// with the particles' (Beuth, Wieckowski and Vermeer 2011, IJNAMG 35:1508).
-/// The bare body (no external force, damping, smoothing) has loops of its own; the others are asked for once a
-/// particle, not once a node.
+/// -V sigma grad w. With smoothing, the stress is the one whose work on any motion is that of the particles' stress on
+/// the smoothed gradients, so that no energy is made. cell_average: the volume-weighted mean of the body's particles in
+/// the element; a simplex that the body fills about (see smoothing.cpp) is integrated with its own volume instead of
+/// the particles' (Beuth, Wieckowski and Vermeer 2011, IJNAMG 35:1508), and that does make some. nodal_mixed: the
+/// particle's own with its isotropic part smoothed as smooth_gradients() smooths rates (cf. the averaged nodal pressure
+/// of Bonet and Burton 1998, CNME 14:437). The bare body (no external force, damping, smoothing) has loops of its own;
+/// the others are asked for once a particle, not once a node.
 template <int Dim>
 void body_to_grid(const Discretisation& discretisation, const Particles<Dim>& particles, const Strips& strips,
                   const BodyTerms& terms, const Vec<Dim>& gravity, Grid<Dim>& grid, ThreadTeam& team);
@@ -80,12 +82,13 @@ void grid_to_particles(const Discretisation& discretisation, const Grid<Dim>& gr
 template <int Dim>
 void add_surface_force(Shape shape, const Vec<Dim>& point, const Vec<Dim>& arm, const Vec<Dim>& force, Grid<Dim>& grid);
 
-/// Nodal mixed discretisation (Detournay and Dzik 2006, FLAC symposium 4): replaces the volumetric part of
-/// Particles::gradient (in plane strain that in the plane) by the mean, over the nodes of the particle's element, of
-/// nodal means over the elements around, both weighted by the volume of the body's particles. A uniform rate stays, the
-/// deviatoric part and spin stay, and so does the total rate of volume, sum V tr(grad v).
+/// nodal_mixed (Detournay and Dzik 2006, FLAC symposium 4): replaces the volumetric part of Particles::gradient (in
+/// plane strain that in the plane) by the mean, over the nodes of the particle's element, of nodal means over the
+/// elements around, both weighted by the volume of the body's particles. A uniform rate stays, the deviatoric part and
+/// spin stay, and so does the total rate of volume, sum V tr(grad v). cell_average: the gradient becomes the
+/// volume-weighted mean over the cell; on a simplex it is that already. Does nothing unless smooths_gradients().
 template <int Dim>
-void smooth_volume_rate(Shape shape, const Strips& strips, Particles<Dim>& particles, Grid<Dim>& grid,
-                        ThreadTeam& team);
+void smooth_gradients(const Discretisation& discretisation, const Strips& strips, Particles<Dim>& particles,
+                      Grid<Dim>& grid, ThreadTeam& team);
 
 }  // namespace geocontainer_mpm::mpm

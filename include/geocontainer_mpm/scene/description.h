@@ -115,6 +115,7 @@ struct BodyDescription {
   std::string material;  ///< a key of `materials`
   ShapeDescription shape;
   int particles_per_cell = 2;  ///< in each direction, 1 to 4
+  double jitter = 0.0;         ///< furthest random offset of a particle, over the spacing, [0, 0.5]
   /// Bodies that name the same field move in one velocity field and stick together where they meet. Fields touch by
   /// `contacts`. Empty: the common field.
   std::string velocity_field;

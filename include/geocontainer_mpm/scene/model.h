@@ -193,6 +193,7 @@ private:
   void sort_particles();
   void open_grids();
   void transfer_to_grid(double time_s);
+  bool books_transferred_work() const;
   void apply_forces(const StepInput& input, double kick);
   void collect_points();
   void solve_contact(const StepInput& input, double kick);
@@ -224,6 +225,9 @@ private:
   double gravity_power(const Vec2& gravity) const;
   double plastic_work() const;
   double damping_power() const;
+  double stress_power() const;
+  double tension_power() const;
+  double half_step_work() const;
 
   std::shared_ptr<mpm::ThreadTeam> team_;  ///< shared by copies of the model: one steps at a time
   mpm::Discretisation method_;
@@ -247,6 +251,7 @@ private:
   bool on_grid_ = false;
   double stable_dt_ = 0.0;
   double load_power_before_ = 0.0;  ///< of loads on the velocity before the step, W/m
+  double power_before_ = 0.0;       ///< of all forces on the motion before the transfer, W/m
   Vec2 load_sum_ = Vec2::Zero();    ///< of all loads but gravity, N/m
   StageTimes stages_;
 };

@@ -30,6 +30,9 @@ std::vector<std::vector<Vec2>> boundary_lines(const ShapeDescription& shape, con
 /// so that their edge is round; other shapes on a square lattice.
 Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline, double spacing);
 
+/// Moves every point by up to `size` m in each direction, at random and the same on every machine.
+void jitter(double size, std::vector<Vec2>& points);
+
 /// Path of a sheet: around its body, along its line or its circle.
 geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene);
 /// Its length without tension, m, from whatever the description says of it.

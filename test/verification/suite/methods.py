@@ -14,6 +14,7 @@ NODAL_MIXED = {**STANDARD, "numerics.smoothing": "nodal_mixed"}
 # For script/bench work-precision, by the name that its table uses.
 SWEEP = {
     "bspline2 apic": {"numerics.shape": "bspline2", "numerics.transfer": "apic"},
+    "bspline2 apic musl": {"numerics.shape": "bspline2", "numerics.transfer": "apic", "numerics.update": "musl"},
     "bspline2 flip": {"numerics.shape": "bspline2", "numerics.transfer": "flip"},
     "bspline2 flip 0.99": {"numerics.shape": "bspline2", "numerics.transfer": "flip", "numerics.flip_fraction": 0.99},
     "linear flip": STANDARD,
