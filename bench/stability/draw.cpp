@@ -295,7 +295,7 @@ std::string draw_bar(Chance& c)
   const double end_s = 1500.0 * space.dx / solid.wave_speed();
   const double stress = c.over_decades(1e-6, 0.1) * solid.young;
   std::string text = "name: bar\ngravity_m_per_s2: [0, 0]\n" + time_text(end_s) + grid_text(space, "free", "free");
-  text += numerics_text(c, false, Touching::no) + "materials:\n" + solid_text(c, "steel", solid, false);
+  text += numerics_text(c, false, Touching::yes) + "materials:\n" + solid_text(c, "steel", solid, false);
   text += fmt::format(
       "bodies:\n  bar:\n    material: steel\n    shape: {{ box: {{ lower_m: {}, upper_m: {} }} }}\n"
       "    particles_per_cell: {}\n",

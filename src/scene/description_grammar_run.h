@@ -57,8 +57,10 @@ void describe(V& v, NumericsDescription& n)
   v.value({ "flip_fraction", optional, "", "1: pure FLIP; 0: particles take the grid's velocity itself (PIC)",
             n.method.transfer == Transfer::flip, "transfer `flip`" },
           n.method.flip_fraction, closed(0.0, 1.0));
-  v.value({ "mass", optional, "", "mass matrix; `consistent` with transfer `flip` and where nothing touches" },
-          n.method.mass);
+  v.value(
+      { "mass", optional, "",
+        "mass matrix; `consistent` with transfer `flip` and where nothing touches or is held but by the grid's faces" },
+      n.method.mass);
   v.value({ "update", optional, "",
             "when stress is updated. `usl`: last; `usf`: first; `musl`: last, from velocities mapped back from the "
             "moved particles" },

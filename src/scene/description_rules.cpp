@@ -111,7 +111,7 @@ void check_inside(const std::string& key, const Eigen::AlignedBox2d& box, const 
       fmt::format("must lie within the grid, {} to {}", to_text(grid.lower_m), to_text(grid.upper_m)));
 }
 
-/// Contact and held ends are solved with lumped masses: beside a consistent one their impulses would make energy.
+/// Contact, supports and held ends act with lumped masses: beside a consistent one their impulses would make energy.
 void check_consistent_mass(const SceneDescription& scene)
 {
   if (scene.numerics.method.mass != mpm::MassMatrix::consistent)
@@ -121,11 +121,12 @@ void check_consistent_mass(const SceneDescription& scene)
   const char* touching = scene.hull                ? "a hull"
                          : !scene.surfaces.empty() ? "surfaces"
                          : !scene.contacts.empty() ? "contacts"
+                         : !scene.supports.empty() ? "supports"
                          : held                    ? "a held end of a geotextile"
                                                    : nullptr;
   if (touching)
     refuse("numerics.mass", to_text(scene.numerics.method.mass),
-           std::string("must be lumped in a scene with ") + touching + ": contact acts with lumped masses");
+           std::string("must be lumped in a scene with ") + touching + ": they act with lumped masses");
 }
 
 void check_rules(const SceneDescription& scene)
