@@ -17,7 +17,7 @@ every particle crosses many cells."""
 
 SIZES = [0.1, 0.05, 0.025, 0.0125]
 METHODS = {"default": methods.DEFAULT, "default, 2x2 a cell": {"bodies.ring.particles_per_cell": 2},
-           "linear flip": methods.STANDARD}
+           "linear flip": {**methods.STANDARD, "bodies.ring.particles_per_cell": 2}}
 
 
 def run(method, size):
