@@ -165,8 +165,9 @@ def draw(sweep, rows, path):
         best = front(rows)
         axis.plot([row["user_cpu_s"] for row in best], [row["error"] for row in best], "k-", linewidth=1, zorder=0,
                   drawstyle="steps-post", label="Pareto front")
-        axis.set(xscale="log", yscale="log", xlabel="user CPU time [s]", ylabel=f"error over {sweep.scale}",
-                 title=f"{sweep.name} (particles per cell and direction: v 1, o 2, s 3, D 4)")
+        axis.set(xscale="log", yscale="log", xlabel="user CPU time [s]", ylabel="error")
+        axis.set_title(f"{sweep.name}: error over {sweep.scale}\n"
+                       "particles per cell and direction: v 1, o 2, s 3, D 4", fontsize=9)
         axis.legend(fontsize=7)
 
 
