@@ -105,8 +105,9 @@ def simulate(program, scene, run, limit_s=900.0):
             timer.cancel()
             output.seek(0)
             lines = output.read().strip().splitlines()
-        # The line that says why, among the report's.
+        # The line that says why, among the report's; it is for pages that are read elsewhere.
         message = next((line for line in lines if line.startswith("simulate: ")), lines[-1] if lines else "")
+        message = message.replace(ROOT + os.sep, "")
         if process.returncode == 2:
             raise SystemExit(f"{os.path.basename(scene)} ({run.key}): {message}")
         if process.returncode < 0:
