@@ -23,6 +23,14 @@ double stiffening(const mpm::Discretisation& method)
   return method.mass == mpm::MassMatrix::consistent ? 1.0 / mpm::ConsistentMass<2>::lumped_part : 1.0;
 }
 
+/// A particle with less of its volume at the start than this is no soil and no slurry any more.
+constexpr double least_volume = 0.05;
+
+bool squeezed(const mpm::Particles<2>& particles, std::size_t p)
+{
+  return !(particles.volume[p] > least_volume * particles.initial_volume[p]);
+}
+
 struct Look {
   Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   double fastest_square = 0.0;
@@ -44,7 +52,7 @@ Look look_at(const mpm::Particles<2>& particles, bool has_volume, const Vec2& gr
   }
   if (has_volume)
     for (std::size_t p = 0; p < particles.size(); ++p)
-      doubt += particles.volume[p] > 0.0 ? 0.0 * particles.volume[p] : std::numeric_limits<double>::quiet_NaN();
+      doubt += squeezed(particles, p) ? std::numeric_limits<double>::quiet_NaN() : 0.0 * particles.volume[p];
   const bool outside =
       (look.lower.array() < grid_lower.array()).any() || (look.upper.array() > grid_upper.array()).any();
   look.sound = doubt == 0.0 && !outside;
@@ -58,8 +66,8 @@ Failure find_culprit(const std::string& name, const mpm::Particles<2>& particles
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vec2 x(particles.position[0][p], particles.position[1][p]);
     const Vec2 v(particles.velocity[0][p], particles.velocity[1][p]);
-    const char* cause = !x.allFinite() || !v.allFinite()             ? "is not finite any more"
-                        : has_volume && !(particles.volume[p] > 0.0) ? "has lost its volume"
+    const char* cause = !x.allFinite() || !v.allFinite()       ? "is not finite any more"
+                        : has_volume && squeezed(particles, p) ? "has lost its volume"
                         : (x.array() < grid_lower.array()).any() || (x.array() > grid_upper.array()).any()
                             ? "left the grid"
                             : nullptr;
