@@ -66,8 +66,8 @@ void describe(V& v, NumericsDescription& n)
             "moved particles" },
           n.method.update);
   v.value({ "smoothing", optional, "",
-            "remedy against locking. `cell_average`: mean stress of an element; `nodal_mixed`: volumetric strain rate "
-            "averaged over the nodes" },
+            "remedy against locking. `cell_average`: mean strain rate and stress of an element; `nodal_mixed`: "
+            "volumetric strain rate and mean stress averaged over the nodes" },
           n.method.smoothing);
   v.value({ "time_step_factor", optional, "", "fraction of the stability bound that a step may use" },
           n.time_step_factor, open_closed(0.0, 1.0));
