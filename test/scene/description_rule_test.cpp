@@ -156,6 +156,22 @@ const Broken sheets[] = {
     "geotextiles.bag.velocity_field", "cable", "applies only to a free sheet" },
   { "velocity of an enclosing sheet", "circumference_m: 9", "circumference_m: 9\n    initial_velocity_m_per_s: [0, 1]",
     "geotextiles.bag.initial_velocity_m_per_s", "[0, 1]", "applies only to a free sheet" },
+  { "table of force from elsewhere", "[[0, 0], [0.05, 3e4]", "[[0, 1], [0.05, 3e4]",
+    "geotextiles.cable.force_strain_table[0]", "[0, 1]", "must be [0, 0]" },
+  { "table of force that falls", "[0.15, 1.2e5]]", "[0.15, 2e4]]", "geotextiles.cable.force_strain_table[2]",
+    "[0.15, 20000]", "greater than in the row before" },
+  { "table of force with one row", "[[0, 0], [0.05, 3e4], [0.15, 1.2e5]]", "[[0, 0]]",
+    "geotextiles.cable.force_strain_table", "1 given", "two rows or more" },
+  { "neither stiffness nor table", "stiffness_n_per_m: 1.1e6\n", "force_strain_table: []\n",
+    "geotextiles.bag.stiffness_n_per_m", "", "missing; must be a number > 0" },
+  { "laid beyond its rupture", "rupture_strain: 0.12", "rupture_strain: 0.0005", "geotextiles.tube.rupture_strain",
+    "0.0005", "more than the strain of pretension_n_per_m, 0.001" },
+  { "seam at two places", "right: { along: 0.25 }", "right: { along: 0.25, at_m: [0, -5] }",
+    "geotextiles.bag.seams.right", "at_m, along", "exactly one of at_m, along" },
+  { "seam nowhere", "right: { along: 0.25 }", "right: { efficiency: 0.25 }", "geotextiles.bag.seams.right", "nothing",
+    "exactly one of at_m, along" },
+  { "seam off the grid", "at_m: [-0.5, -5]", "at_m: [-0.5, -50]", "geotextiles.bag.seams.left.at_m", "[-0.5, -50]",
+    "within the grid" },
 };
 
 const Broken boundaries[] = {
