@@ -59,6 +59,9 @@ bool Sheet::stress_points()
   return acts;
 }
 
+/// The rate at mid-step, with the tangent turned by half of the step: with the one at its start a sheet that swings
+/// across itself by w' loses dt^2 (dw'/dt)^2 / 2 of its stretch in every step. A spin turns it as well and stretches
+/// nothing. The exponential is exact for a rate that lasts over the step and cannot turn a length inside out.
 void Sheet::update_stress(double dt)
 {
   if (!strains_with_grid())
@@ -66,9 +69,12 @@ void Sheet::update_stress(double dt)
   const auto& l = nodes_.gradient;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const double t0 = tangent_[0][i], t1 = tangent_[1][i];
-    // Exact for a rate that lasts over the step, and it cannot turn a length inside out.
-    stretch_[i] *= std::exp(dt * (t0 * t0 * l[0][i] + t0 * t1 * (l[1][i] + l[2][i]) + t1 * t1 * l[3][i]));
+    const double m0 = t0 + 0.5 * dt * (l[0][i] * t0 + l[1][i] * t1), m1 = t1 + 0.5 * dt * (l[2][i] * t0 + l[3][i] * t1);
+    const double square = m0 * m0 + m1 * m1;
+    if (square > 0.0)
+      stretch_[i] *= std::exp(dt * (m0 * m0 * l[0][i] + m0 * m1 * (l[1][i] + l[2][i]) + m1 * m1 * l[3][i]) / square);
   }
+  find_tangents();
   stress_points();
 }
 

@@ -89,6 +89,17 @@ void check_end(const std::string& key, const SheetEnd& end)
            "must be [0, 0] at time 0, where the sheet is laid");
 }
 
+/// With one membrane point a cell there are motions of the grid that stretch the sheet and that no point feels: in
+/// every case of docs/study/membranes.md the sheet then ran away.
+void check_spacing(const std::string& key, const GeotextileDescription& sheet, const GridDescription& grid)
+{
+  const double most = 0.5 * grid.cell_size_m;
+  if (sheet.formulation == geotextile::Formulation::membrane_points &&
+      sheet.segment_length_m > most * (1.0 + relative_tolerance))
+    refuse(key + ".segment_length_m", number_text(sheet.segment_length_m),
+           "must be at most " + number_text(most) + ", half a cell, for membrane_points");
+}
+
 void check_strength(const std::string& key, const GeotextileDescription& sheet, const GridDescription& grid)
 {
   if (sheet.rupture_strain && sheet.pretension_n_per_m) {
@@ -131,6 +142,7 @@ void check_geotextile(const std::string& key, const GeotextileDescription& sheet
     refuse(key + ".computational_mass_kg_per_m2", number_text(sheet.computational_mass_kg_per_m2),
            "must be >= mass_kg_per_m2 = " + number_text(sheet.mass_kg_per_m2));
   check_lengths(key, sheet, scene);
+  check_spacing(key, sheet, scene.grid);
   check_strength(key, sheet, scene.grid);
   if (is_open(sheet)) {
     check_end(key + ".start", sheet.start);

@@ -76,9 +76,9 @@ TEST(MembranePoints, StretchWithTheGridAlongTheirTangentOnly)
     const double angle = chance(0.0, 6.0), strain = chance(0.0, 0.05), along = chance(0.0, 1.0);
     Sheet sheet = straight(angle, strain, chance.whole(1, 9));
     sheet.update_forces();
-    // In the sheet's own frame: stretching, and across it anything.
+    // In the sheet's own frame: stretching, and across it anything that does not turn it.
     Eigen::Matrix2d own, turn;
-    own << along, chance(-9.0, 9.0), chance(-9.0, 9.0), chance(-9.0, 9.0);
+    own << along, chance(-9.0, 9.0), 0.0, chance(-9.0, 9.0);
     turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
     set_gradient(sheet, turn * own * turn.transpose());
     for (int k = 0; k < 10; ++k)
@@ -91,6 +91,29 @@ TEST(MembranePoints, StretchWithTheGridAlongTheirTangentOnly)
       RC_ASSERT(std::abs(sheet.nodes().stress[2][i] - tension * t[0] * t[1]) < 1e-9 * stiffness);
     }
   }));
+}
+
+TEST(MembranePoints, StretchIsSecondOrderInTimeWhereTheSheetTurns)
+{
+  // Simple shear across it by 0.5: lambda = sqrt(1 + 0.5^2).
+  double last = 0.0;
+  for (const int steps : { 10, 20, 40 }) {
+    Sheet sheet = straight(0.0, 0.0, 5);
+    Eigen::Matrix2d shear;
+    shear << 0.0, 0.0, 1.0, 0.0;
+    set_gradient(sheet, shear);
+    for (int k = 1; k <= steps; ++k) {
+      sheet.update_forces();
+      for (std::size_t i = 0; i < sheet.nodes().size(); ++i)
+        sheet.nodes().position[1][i] = 0.5 * k / steps * sheet.nodes().position[0][i];
+      sheet.update_stress(0.5 / steps);
+    }
+    const double error = std::abs(1.0 + sheet.largest_strain() - std::sqrt(1.25));
+    if (last > 0.0)
+      EXPECT_NEAR(last / error, 4.0, 0.3) << steps;
+    EXPECT_LT(error, 1e-3);
+    last = error;
+  }
 }
 
 TEST(MembranePoints, RotationChangesNoTensionAndTurnsItsStress)

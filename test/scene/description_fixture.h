@@ -172,7 +172,8 @@ geotextiles:
     seams:
       left: { at_m: [-0.5, -5], efficiency: 0.7 }
       right: { along: 0.25 }
-    segment_length_m: 0.1
+    segment_length_m: 0.05
+    formulation: membrane_points
     gauge_length_m: 0.4
   cable:
     line: { points_m: [[-1, -5], [0, -5.2], [1, -5]], closed: false }
@@ -180,7 +181,6 @@ geotextiles:
     start: { held: true, motion_table: [[0, 0, 0], [1, 0.1, -0.1]] }
     end: { held: false, force_n_per_m: [10, 5], force_table: [[0, 0], [1, 1]] }
     velocity_field: cable
-    formulation: membrane_points
     force_strain_table: [[0, 0], [0.05, 3e4], [0.15, 1.2e5]]
     initial_velocity_m_per_s: [0, 0.1]
     initial_velocity_wave: { amplitude_m_per_s: [0, 0.2], wave_number_rad_per_m: [2, 0], phase_rad: 0.1 }
