@@ -136,9 +136,9 @@ private:
   Vec2 rupture_place_ = Vec2::Zero();
   std::array<mpm::Column, 2> external_;  ///< of it all, what loads add to the forces, N/m
   // Of membrane points alone.
-  mpm::Column stretch_;  ///< length over unstretched length
-  std::array<mpm::Column, 2> tangent_;
-  mpm::Column point_tension_;  ///< N/m
+  mpm::Column stretch_;                 ///< length over unstretched length
+  std::array<mpm::Column, 2> tangent_;  ///< as of the last update_forces()
+  mpm::Column point_tension_;           ///< N/m
 };
 
 }  // namespace geocontainer_mpm::geotextile

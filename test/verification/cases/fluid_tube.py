@@ -67,7 +67,8 @@ def run(p0, size, method="default"):
 
 
 SIZES = [0.2, 0.1, 0.05]
-# York's membrane points beside the default, segments; they need several a cell (docs/study/membranes.md): at one pressure.
+# York's membrane points beside the default, segments, at one pressure; they need several a cell
+# (docs/study/membranes.md).
 FORMULATIONS = {"default": "segments", "membrane points": "membrane_points"}
 SPACING = {"default": 1.0, "membrane points": 0.25}  # over the cell size
 

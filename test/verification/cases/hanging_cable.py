@@ -35,8 +35,8 @@ SAG = A * (math.cosh(HALF_SPAN / A) - 1.0)
 
 def run(method, size, record):
     return Run(f"{method} {size:g}", {
-        "grid.cell_size_m": size, "geotextiles.cable.segment_length_m": size * SPACING[method], "geotextiles.cable.gauge_length_m": size,
-        "geotextiles.cable.formulation": FORMULATIONS[method]}, method, record=record, effort=3 * (0.1 / size) ** 2)
+        "grid.cell_size_m": size, "geotextiles.cable.segment_length_m": size * SPACING[method],
+        "geotextiles.cable.gauge_length_m": size, "geotextiles.cable.formulation": FORMULATIONS[method]}, method, record=record, effort=3 * (0.1 / size) ** 2)
 
 
 def runs(full):
