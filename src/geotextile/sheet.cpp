@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geocontainer_mpm/mpm/bspline.h"
-
 namespace geocontainer_mpm::geotextile {
 namespace {
 
@@ -49,7 +47,8 @@ constexpr double slack_strain = -0.01;
 
 }  // namespace
 
-Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters) : parameters_(parameters)
+Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters)
+    : parameters_(parameters), law_(parameters.stiffness, parameters.force_strain)
 {
   const std::vector<Vec2> line = joined(layout);
   const double least = layout.closed ? 3.0 : 1.0;
@@ -59,7 +58,7 @@ Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters) : par
   nodes_.resize(points.size());
   rest_length_.assign(count, rest);
   tension_.assign(count, 0.0);
-  strain_.assign(count, 0.0);
+  piece_length_.assign(count, rest);
   for (mpm::Column& column : external_)
     column.assign(points.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -72,27 +71,67 @@ Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters) : par
   }
   if (layout.closed)
     outwards_ = twice_signed_area() >= 0.0 ? 1.0 : -1.0;
+  if (strains_with_grid())
+    lay_points();
+  strain_.assign(piece_length_.size(), 0.0);
+  broken_.assign(piece_length_.size(), 0);
 }
 
-SheetSegment Sheet::segment(std::size_t i) const
+/// Tension of a piece at its new strain, N/m. Where it breaks, what was stored in it and half of the last step's work,
+/// the half that was done before, are gone.
+double Sheet::carried(std::size_t piece, double strain, const Vec2& place)
 {
-  return { i, end_of(i), parameters_.stiffness / rest_length_[i], strain_[i] >= slack_strain };
+  if (broken_[piece])
+    return 0.0;
+  const double before = strain_[piece];
+  strain_[piece] = strain;
+  if (!parameters_.rupture_strain || strain < *parameters_.rupture_strain)
+    return law_.force(strain);
+  nodes_.dissipated[piece] =
+      piece_length_[piece] * (law_.energy(before) + 0.5 * law_.force(before) * (strain - before));
+  broken_[piece] = 1;
+  if (ruptures_++ == 0)
+    rupture_place_ = place;
+  return 0.0;
 }
 
-bool Sheet::update_forces(const SheetLoad& load)
+bool Sheet::is_active(std::size_t piece) const
+{
+  return strain_[piece] >= slack_strain && !broken_[piece];
+}
+
+std::size_t Sheet::active_pieces() const
+{
+  std::size_t active = 0;
+  for (std::size_t i = 0; i < strain_.size(); ++i)
+    active += is_active(i) ? 1 : 0;
+  return active;
+}
+
+void Sheet::add_stiffness(mpm::FrequencyBound<2>& bound) const
+{
+  for (std::size_t i = 0; i < strain_.size(); ++i) {
+    if (!is_active(i))
+      continue;
+    if (strains_with_grid())
+      bound.add_fibre(node(i), { tangent_[0][i], tangent_[1][i] },
+                      law_.steepest() * stretch_[i] * stretch_[i] * piece_length_[i]);
+    else
+      bound.add_segment(node(i), node(end_of(i)), law_.steepest() / rest_length_[i]);
+  }
+}
+
+/// Tension of every segment from the nodes' positions, and what it pulls at the nodes.
+bool Sheet::pull_with_segments()
 {
   const std::size_t n = segments();
-  for (mpm::Column& column : nodes_.force)
-    std::fill(column.begin(), column.end(), 0.0);
   bool acts = false;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = end_of(i);
     const double along_y = nodes_.position[0][j] - nodes_.position[0][i];
     const double along_z = nodes_.position[1][j] - nodes_.position[1][i];
     const double length = std::sqrt(along_y * along_y + along_z * along_z);
-    const double strain = length / rest_length_[i] - 1.0;
-    strain_[i] = strain;
-    tension_[i] = strain > 0.0 ? parameters_.stiffness * strain : 0.0;
+    tension_[i] = carried(i, length / rest_length_[i] - 1.0, 0.5 * (node(i) + node(j)));
     if (tension_[i] <= 0.0)
       continue;
     acts = true;
@@ -101,6 +140,20 @@ bool Sheet::update_forces(const SheetLoad& load)
     nodes_.force[1][i] += scale * along_z;
     nodes_.force[0][j] -= scale * along_y;
     nodes_.force[1][j] -= scale * along_z;
+  }
+  return acts;
+}
+
+bool Sheet::update_forces(const SheetLoad& load)
+{
+  for (mpm::Column& column : nodes_.force)
+    std::fill(column.begin(), column.end(), 0.0);
+  bool acts = false;
+  if (strains_with_grid()) {
+    find_tangents();
+    acts = stress_points();
+  } else {
+    acts = pull_with_segments();
   }
   for (mpm::Column& column : external_)
     std::fill(column.begin(), column.end(), 0.0);
@@ -184,14 +237,23 @@ void Sheet::gauge_tension(std::vector<double>& result) const
 double Sheet::elastic_energy() const
 {
   double energy = 0.0;
-  for (std::size_t i = 0; i < segments(); ++i)
-    energy += 0.5 * tension_[i] * tension_[i] / parameters_.stiffness * rest_length_[i];
+  for (std::size_t i = 0; i < strain_.size(); ++i)
+    if (!broken_[i])
+      energy += law_.energy(strain_[i]) * piece_length_[i];
+  return energy;
+}
+
+double Sheet::rupture_energy() const
+{
+  double energy = 0.0;
+  for (const double lost : nodes_.dissipated)
+    energy += lost;
   return energy;
 }
 
 double Sheet::largest_strain() const
 {
-  return *std::max_element(tension_.begin(), tension_.end()) / parameters_.stiffness;
+  return std::max(0.0, *std::max_element(strain_.begin(), strain_.end()));
 }
 
 double Sheet::length() const
@@ -215,66 +277,6 @@ double Sheet::twice_signed_area() const
 double Sheet::enclosed_area() const
 {
   return closed() ? 0.5 * std::abs(twice_signed_area()) : 0.0;
-}
-
-Sheet::Difference Sheet::difference(std::size_t segment, const mpm::Grid<2>& grid) const
-{
-  const auto stencil = [&](std::size_t i) {
-    return mpm::make_stencil<2>({ nodes_.position[0][i], nodes_.position[1][i] }, grid.origin(), grid.dx(),
-                                grid.inverse_dx());
-  };
-  const mpm::Stencil<2> a = stencil(segment);
-  const mpm::Stencil<2> b = stencil(end_of(segment));
-  // The box around both stencils, cut at six nodes: ends three cells apart no longer share any.
-  std::array<int, 2> base{}, size{};
-  for (std::size_t d = 0; d < 2; ++d) {
-    base[d] = std::min(a.base[d], b.base[d]);
-    size[d] = std::min(6, std::max(a.base[d], b.base[d]) + 3 - base[d]);
-  }
-  const auto weight = [](const mpm::Stencil<2>& s, int row, int column) {
-    const int i = row - s.base[0], j = column - s.base[1];
-    return i >= 0 && i < 3 && j >= 0 && j < 3
-               ? s.weight[0][static_cast<std::size_t>(i)] * s.weight[1][static_cast<std::size_t>(j)]
-               : 0.0;
-  };
-  Difference result;
-  result.count = 0;
-  for (int row = base[0]; row < base[0] + size[0]; ++row)
-    for (int column = base[1]; column < base[1] + size[1]; ++column) {
-      result.node[result.count] = static_cast<std::uint32_t>(grid.index({ row, column }));
-      result.magnitude[result.count++] = std::abs(weight(b, row, column) - weight(a, row, column));
-    }
-  return result;
-}
-
-double Sheet::frequency_bound(const mpm::Grid<2>& grid)
-{
-  // Irons and Treharne: omega^2 <= max over segments of the single segment's own, with the nodal mass m_i handed out in
-  // proportion to k |dw_i|: omega_e^2 = sum_i |dw_i| (sum over segments of k |dw_i|) / m_i.
-  nodal_stiffness_.resize(grid.size(), 0.0);
-  differences_.clear();
-  for (std::size_t i = 0; i < segments(); ++i) {
-    if (strain_[i] < slack_strain)
-      continue;
-    differences_.push_back(difference(i, grid));
-    const Difference& d = differences_.back();
-    for (std::size_t k = 0; k < d.count; ++k)
-      nodal_stiffness_[d.node[k]] += parameters_.stiffness / rest_length_[i] * d.magnitude[k];
-  }
-  double bound = 0.0;
-  for (const Difference& d : differences_) {
-    double square = 0.0;
-    for (std::size_t k = 0; k < d.count; ++k) {
-      const double mass = grid.nodes()[d.node[k]][mpm::Grid<2>::mass_slot];
-      if (mass > 0.0)
-        square += d.magnitude[k] * nodal_stiffness_[d.node[k]] / mass;
-    }
-    bound = std::max(bound, square);
-  }
-  for (const Difference& d : differences_)
-    for (std::size_t k = 0; k < d.count; ++k)
-      nodal_stiffness_[d.node[k]] = 0.0;
-  return bound;
 }
 
 }  // namespace geocontainer_mpm::geotextile

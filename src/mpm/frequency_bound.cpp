@@ -224,6 +224,16 @@ void FrequencyBound<Dim>::add_segment(const Vec<Dim>& a, const Vec<Dim>& b, doub
 }
 
 template <int Dim>
+void FrequencyBound<Dim>::add_fibre(const Vec<Dim>& x, const Vec<Dim>& along, double stiffness)
+{
+  const AnyReach<Dim> reach = reach_of<Dim>(method_.shape, x, *grid_);
+  const std::size_t first = segment_nodes_.size();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
+    segment_nodes_.push_back({ reach.node[k], std::abs(along.dot(reach.gradient[k])) });
+  segments_.push_back({ stiffness, first, segment_nodes_.size() - first });
+}
+
+template <int Dim>
 struct FrequencyBound<Dim>::SegmentElement {
   const SegmentNode *first, *last;
   double stiffness;

@@ -20,11 +20,11 @@ void body_to_grid(const Discretisation& discretisation, const Particles<Dim>& pa
 
 template <int Dim>
 void sheet_to_grid(const Discretisation& discretisation, const Particles<Dim>& nodes, Part part,
-                   const Vec<Dim>& gravity, Grid<Dim>& grid)
+                   const Vec<Dim>& gravity, Grid<Dim>& grid, bool stressed)
 {
   const auto loops = discretisation.shape == Shape::bspline2 ? TransferLoops<Dim, Shape::bspline2>::sheet
                                                              : TransferLoops<Dim, Shape::linear_simplex>::sheet;
-  loops(discretisation, nodes, part, gravity, grid);
+  loops(discretisation, nodes, part, gravity, grid, stressed);
 }
 
 template <int Dim>
@@ -50,8 +50,8 @@ template void body_to_grid(const Discretisation&, const Particles<2>&, const Str
                            Grid<2>&, ThreadTeam&);
 template void body_to_grid(const Discretisation&, const Particles<3>&, const Strips&, const BodyTerms&, const Vec<3>&,
                            Grid<3>&, ThreadTeam&);
-template void sheet_to_grid(const Discretisation&, const Particles<2>&, Part, const Vec<2>&, Grid<2>&);
-template void sheet_to_grid(const Discretisation&, const Particles<3>&, Part, const Vec<3>&, Grid<3>&);
+template void sheet_to_grid(const Discretisation&, const Particles<2>&, Part, const Vec<2>&, Grid<2>&, bool);
+template void sheet_to_grid(const Discretisation&, const Particles<3>&, Part, const Vec<3>&, Grid<3>&, bool);
 template void grid_to_particles(const Discretisation&, const Grid<2>&, double, Gather, Particles<2>&, std::size_t,
                                 std::size_t);
 template void grid_to_particles(const Discretisation&, const Grid<3>&, double, Gather, Particles<3>&, std::size_t,

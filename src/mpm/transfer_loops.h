@@ -12,7 +12,7 @@ struct TransferLoops {
   static void body(const Discretisation& discretisation, const Particles<Dim>& particles, const Strips& strips,
                    const BodyTerms& terms, const Vec<Dim>& gravity, Grid<Dim>& grid, ThreadTeam& team);
   static void sheet(const Discretisation& discretisation, const Particles<Dim>& nodes, Part part,
-                    const Vec<Dim>& gravity, Grid<Dim>& grid);
+                    const Vec<Dim>& gravity, Grid<Dim>& grid, bool stressed);
   static void gather(const Discretisation& discretisation, const Grid<Dim>& grid, double dt, Gather what,
                      Particles<Dim>& particles, std::size_t begin, std::size_t end);
 };
@@ -72,27 +72,33 @@ void TransferLoops<Dim, shape>::body(const Discretisation& discretisation, const
 template <int Dim, Shape shape, Part part, bool affine, Push push>
 void scatter_sheet(const Particles<Dim>& nodes, const Vec<Dim>& gravity, Grid<Dim>& grid)
 {
+  const Extra stress_and_force{ true, {}, Smoothing::none, nullptr };
   for (std::size_t p = 0; p < nodes.size(); ++p)
-    scatter_one<Dim, shape, part, affine, push>(nodes, p, gravity, Extra{}, grid);
+    scatter_one<Dim, shape, part, affine, push>(nodes, p, gravity, stress_and_force, grid);
 }
 
 template <int Dim, Shape shape>
 void TransferLoops<Dim, shape>::sheet(const Discretisation& discretisation, const Particles<Dim>& nodes, Part part,
-                                      const Vec<Dim>& gravity, Grid<Dim>& grid)
+                                      const Vec<Dim>& gravity, Grid<Dim>& grid, bool stressed)
 {
   const bool affine = discretisation.transfer == Transfer::apic;
   const auto scatter = [&](auto loop) { loop(nodes, gravity, grid); };
   switch (part) {
     case Part::all:
-      scatter(affine ? scatter_sheet<Dim, shape, Part::all, true, Push::external>
-                     : scatter_sheet<Dim, shape, Part::all, false, Push::external>);
+      if (stressed)
+        scatter(affine ? scatter_sheet<Dim, shape, Part::all, true, Push::extra>
+                       : scatter_sheet<Dim, shape, Part::all, false, Push::extra>);
+      else
+        scatter(affine ? scatter_sheet<Dim, shape, Part::all, true, Push::external>
+                       : scatter_sheet<Dim, shape, Part::all, false, Push::external>);
       break;
     case Part::momentum:
       scatter(affine ? scatter_sheet<Dim, shape, Part::momentum, true, Push::nothing>
                      : scatter_sheet<Dim, shape, Part::momentum, false, Push::nothing>);
       break;
     case Part::force:
-      scatter(scatter_sheet<Dim, shape, Part::force, false, Push::external>);
+      scatter(stressed ? scatter_sheet<Dim, shape, Part::force, false, Push::extra>
+                       : scatter_sheet<Dim, shape, Part::force, false, Push::external>);
       break;
   }
 }

@@ -115,7 +115,12 @@ std::string table(const Json& s)
   if (s.at("peak_tension_n_per_m").is_number()) {
     row("peak tension", quantity(s.at("peak_tension_n_per_m"), 1e-3, 2, "kN/m"));
     row("  at", quantity(s.at("peak_tension_time_s"), 1.0, 2, "s") + ", " + place(s.at("peak_tension_position_m")));
-    row("  of seam strength", quantity(s.at("peak_utilisation"), 100.0, 1, "%"));
+    row("  of seam strength", quantity(s.at("peak_utilisation_seam"), 100.0, 1, "%"));
+    row("  of sheet strength", quantity(s.at("peak_utilisation_sheet"), 100.0, 1, "%"));
+    if (s.at("ruptured").is_object())
+      row("ruptured", fmt::format("{} pieces, first at ", s.at("ruptured").at("pieces").get<std::size_t>()) +
+                          quantity(s.at("ruptured").at("time_s"), 1.0, 2, "s") + ", " +
+                          place(s.at("ruptured").at("position_m")));
     row("residual tension", quantity(s.at("residual_tension_n_per_m"), 1e-3, 2, "kN/m"));
     row("largest elongation", quantity(s.at("geotextile_elongation_max"), 100.0, 2, "%"));
   }

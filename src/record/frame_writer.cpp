@@ -241,6 +241,7 @@ void write_energy(hid_t frame_group, const scene::EnergyFrame& energy)
   write_number(group, "dissipated_plastic_j_per_m", energy.dissipated_plastic);
   write_number(group, "dissipated_contact_j_per_m", energy.dissipated_contact);
   write_number(group, "dissipated_transfer_j_per_m", energy.dissipated_transfer);
+  write_number(group, "dissipated_rupture_j_per_m", energy.dissipated_rupture);
   write_number(group, "work_in_j_per_m", energy.work_in);
   write_number(group, "relative_balance_error", energy.relative_balance_error);
 }

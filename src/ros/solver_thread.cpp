@@ -31,7 +31,10 @@ double weakest_seam(const scene::SceneDescription& scene)
 {
   double weakest = 0.0;
   for (const auto& [name, sheet] : scene.geotextiles) {
-    const double seam = sheet.strength_n_per_m * sheet.seam_efficiency;
+    double efficiency = sheet.seams.empty() ? sheet.seam_efficiency : 1.0;
+    for (const auto& [seam_name, named] : sheet.seams)
+      efficiency = std::min(efficiency, named.efficiency.value_or(sheet.seam_efficiency));
+    const double seam = sheet.strength_n_per_m * efficiency;
     weakest = weakest > 0.0 ? std::min(weakest, seam) : seam;
   }
   return weakest;

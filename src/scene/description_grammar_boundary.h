@@ -38,6 +38,16 @@ void describe(V& v, InsidePressure& p)
 }
 
 template <class V>
+void describe(V& v, SeamDescription& s)
+{
+  v.value({ "at_m", optional, "m", "place: the sheet's segment nearest to this, as it is laid" }, s.at_m);
+  v.value({ "along", optional, "", "place: part of the sheet's length from its first point" }, s.along,
+          closed(0.0, 1.0));
+  v.value({ "efficiency", optional, "", "its strength over the sheet's; absent: `seam_efficiency`" }, s.efficiency,
+          open_closed(0.0, 1.0));
+}
+
+template <class V>
 void describe(V& v, GeotextileDescription& g)
 {
   v.value({ "encloses", optional, "", "the body in `bodies` around whose outline the closed sheet is laid" },
@@ -69,16 +79,29 @@ void describe(V& v, GeotextileDescription& g)
   v.section({ "initial_velocity_wave", optional, "", "a sine over space on top: a mode of vibration", free,
               "a free sheet (`line` or `circle`)" },
             g.initial_velocity_wave);
-  v.value({ "stiffness_n_per_m", required, "N/m", "J (warp): force per width and unit strain" }, g.stiffness_n_per_m,
-          positive());
+  v.value({ "formulation", optional, "",
+            "how its tension arises: from the distance of its points, or as York's membrane points from the grid's "
+            "velocity gradient" },
+          g.formulation);
+  v.value({ "force_strain_table", optional, "1, N/m",
+            "force per width over strain (warp) from [0, 0], both ascending; beyond the last row with the last slope" },
+          g.force_strain_table, rows("strain, n_per_m"));
+  const bool linear = g.force_strain_table.empty();
+  v.value({ "stiffness_n_per_m", linear ? required : optional, "N/m",
+            "J (warp): force per width and unit strain; of no account with `force_strain_table`" },
+          g.stiffness_n_per_m, linear ? positive() : non_negative());
   v.value({ "mass_kg_per_m2", required, "kg/m2", "true mass: what gravity pulls" }, g.mass_kg_per_m2, positive());
   v.value(
       { "computational_mass_kg_per_m2", required, "kg/m2", "inertia used (mass scaling), not below `mass_kg_per_m2`" },
       g.computational_mass_kg_per_m2, positive());
   v.value({ "strength_n_per_m", required, "N/m", "tensile strength of the sheet (warp)" }, g.strength_n_per_m,
           positive());
-  v.value({ "seam_efficiency", optional, "", "strength of a seam over the sheet's" }, g.seam_efficiency,
-          open_closed(0.0, 1.0));
+  v.value({ "rupture_strain", optional, "",
+            "strain at which a piece of the sheet breaks and from then on carries nothing; absent: never" },
+          g.rupture_strain, positive());
+  v.map({ "seams", optional, "", "seams that run along the barge, by name; none: a seam may be anywhere" }, g.seams);
+  v.value({ "seam_efficiency", optional, "", "strength of a seam over the sheet's, where the seam gives no own" },
+          g.seam_efficiency, open_closed(0.0, 1.0));
   v.value({ "segment_length_m", required, "m", "wanted length of a membrane segment; about a cell" },
           g.segment_length_m, positive());
   v.value({ "gauge_length_m", optional, "m", "reported tension is the mean over this; not below `segment_length_m`" },

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -345,6 +346,47 @@ void check_row_count(std::size_t rows, const std::string& key, const Limits& lim
 {
   if (rows < limits.min_count)
     refuse(key, fmt::format("{} given", rows), "must be " + table_type_text(limits));
+}
+
+std::string type_text(const std::vector<geotextile::ForceStrainRow>&, const Limits& limits)
+{
+  return table_type_text(limits);
+}
+
+void parse(const YAML::Node& node, const std::string& key, const Limits& limits,
+           std::vector<geotextile::ForceStrainRow>& table)
+{
+  if (!node.IsSequence())
+    refuse(key, text_of(node), "must be " + table_type_text(limits));
+  table.resize(node.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    std::array<double, 2> numbers{};
+    parse_row(node[i], indexed(key, i), limits.columns, numbers.data(), numbers.size());
+    table[i] = { numbers[0], numbers[1] };
+  }
+}
+
+void check(const std::vector<geotextile::ForceStrainRow>& table, const std::string& key, const Limits&)
+{
+  if (table.size() == 1)
+    refuse(key, "1 given", "must be absent, empty, or have two rows or more");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::array<double, 2> row{ table[i].strain, table[i].force };
+    const std::string text = row_text(row.data(), row.size());
+    if (!std::isfinite(row[0]) || !std::isfinite(row[1]))
+      refuse(indexed(key, i), text, "must be 2 finite numbers");
+    if (i == 0 && (row[0] != 0.0 || row[1] != 0.0))
+      refuse(indexed(key, i), text, "must be [0, 0]: an unstretched sheet carries nothing");
+    if (i > 0 && !(row[0] > table[i - 1].strain && row[1] > table[i - 1].force))
+      refuse(indexed(key, i), text, "strain and force must be greater than in the row before");
+  }
+}
+
+std::string to_text(const std::vector<geotextile::ForceStrainRow>& table)
+{
+  return list_text(table, [](const geotextile::ForceStrainRow& row) {
+    return fmt::format("[{}, {}]", number_text(row.strain), number_text(row.force));
+  });
 }
 
 }  // namespace geocontainer_mpm::scene::grammar

@@ -24,6 +24,7 @@ std::string type_text(const Vec2&, const Limits& limits);
 std::string type_text(const std::vector<Vec2>&, const Limits& limits);
 std::string type_text(const std::vector<OpeningRow>&, const Limits& limits);
 std::string type_text(const std::vector<std::string>&, const Limits& limits);
+std::string type_text(const std::vector<geotextile::ForceStrainRow>&, const Limits& limits);
 
 void parse(const YAML::Node& node, const std::string& key, const Limits& limits, double& value);
 void parse(const YAML::Node& node, const std::string& key, const Limits& limits, int& value);
@@ -33,6 +34,8 @@ void parse(const YAML::Node& node, const std::string& key, const Limits& limits,
 void parse(const YAML::Node& node, const std::string& key, const Limits& limits, std::vector<Vec2>& value);
 void parse(const YAML::Node& node, const std::string& key, const Limits& limits, std::vector<OpeningRow>& value);
 void parse(const YAML::Node& node, const std::string& key, const Limits& limits, std::vector<std::string>& value);
+void parse(const YAML::Node& node, const std::string& key, const Limits& limits,
+           std::vector<geotextile::ForceStrainRow>& table);
 
 void check(const double& value, const std::string& key, const Limits& limits);
 void check(const int& value, const std::string& key, const Limits& limits);
@@ -42,6 +45,7 @@ void check(const Vec2& value, const std::string& key, const Limits& limits);
 void check(const std::vector<Vec2>& value, const std::string& key, const Limits& limits);
 void check(const std::vector<OpeningRow>& value, const std::string& key, const Limits& limits);
 void check(const std::vector<std::string>& value, const std::string& key, const Limits& limits);
+void check(const std::vector<geotextile::ForceStrainRow>& table, const std::string& key, const Limits& limits);
 
 std::string to_text(const double& value);
 std::string to_text(const int& value);
@@ -51,6 +55,7 @@ std::string to_text(const Vec2& value);
 std::string to_text(const std::vector<Vec2>& value);
 std::string to_text(const std::vector<OpeningRow>& value);
 std::string to_text(const std::vector<std::string>& value);
+std::string to_text(const std::vector<geotextile::ForceStrainRow>& table);
 
 // A value that may be absent: read, checked and written like one that is there.
 template <class T>

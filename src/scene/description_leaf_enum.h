@@ -78,6 +78,14 @@ struct Words<material::LawName> {
   };
 };
 
+template <>
+struct Words<geotextile::Formulation> {
+  static constexpr std::array<std::pair<geotextile::Formulation, const char*>, 2> list{
+    { { geotextile::Formulation::segments, "segments" },
+      { geotextile::Formulation::membrane_points, "membrane_points" } }
+  };
+};
+
 template <class Enum, class = decltype(Words<Enum>::list)>
 std::string type_text(const Enum&, const Limits&)
 {

@@ -15,6 +15,11 @@ using grammar::refuse;
 
 constexpr double pi = 3.14159265358979323846;
 
+geotextile::ForceStrain law_of(const GeotextileDescription& sheet)
+{
+  return geotextile::ForceStrain(sheet.stiffness_n_per_m, sheet.force_strain_table);
+}
+
 bool is_open(const GeotextileDescription& sheet)
 {
   return sheet.line && !sheet.line->closed;
@@ -48,7 +53,7 @@ std::optional<double> unstretched_length(const GeotextileDescription& sheet, std
   if (path && sheet.slack)
     return *path * (1.0 + *sheet.slack);
   if (path && sheet.pretension_n_per_m)
-    return *path / (1.0 + *sheet.pretension_n_per_m / sheet.stiffness_n_per_m);
+    return *path / (1.0 + law_of(sheet).strain(*sheet.pretension_n_per_m));
   return path;
 }
 
@@ -84,6 +89,33 @@ void check_end(const std::string& key, const SheetEnd& end)
            "must be [0, 0] at time 0, where the sheet is laid");
 }
 
+/// With one membrane point a cell there are motions of the grid that stretch the sheet and that no point feels: in
+/// every case of docs/study/membranes.md the sheet then ran away.
+void check_spacing(const std::string& key, const GeotextileDescription& sheet, const GridDescription& grid)
+{
+  const double most = 0.5 * grid.cell_size_m;
+  if (sheet.formulation == geotextile::Formulation::membrane_points &&
+      sheet.segment_length_m > most * (1.0 + relative_tolerance))
+    refuse(key + ".segment_length_m", number_text(sheet.segment_length_m),
+           "must be at most " + number_text(most) + ", half a cell, for membrane_points");
+}
+
+void check_strength(const std::string& key, const GeotextileDescription& sheet, const GridDescription& grid)
+{
+  if (sheet.rupture_strain && sheet.pretension_n_per_m) {
+    const double strain = law_of(sheet).strain(*sheet.pretension_n_per_m);
+    if (strain >= *sheet.rupture_strain)
+      refuse(key + ".rupture_strain", number_text(*sheet.rupture_strain),
+             fmt::format("must be more than the strain of pretension_n_per_m, {:.6g}", strain));
+  }
+  for (const auto& [name, seam] : sheet.seams) {
+    const std::string seam_key = key + ".seams." + name;
+    check_choice(seam_key, { { "at_m", seam.at_m.has_value() }, { "along", seam.along.has_value() } }, 1, 1);
+    if (seam.at_m)
+      check_inside(seam_key + ".at_m", { *seam.at_m, *seam.at_m }, grid);
+  }
+}
+
 void check_geotextile(const std::string& key, const GeotextileDescription& sheet, const SceneDescription& scene)
 {
   check_choice(key,
@@ -110,6 +142,8 @@ void check_geotextile(const std::string& key, const GeotextileDescription& sheet
     refuse(key + ".computational_mass_kg_per_m2", number_text(sheet.computational_mass_kg_per_m2),
            "must be >= mass_kg_per_m2 = " + number_text(sheet.mass_kg_per_m2));
   check_lengths(key, sheet, scene);
+  check_spacing(key, sheet, scene.grid);
+  check_strength(key, sheet, scene.grid);
   if (is_open(sheet)) {
     check_end(key + ".start", sheet.start);
     check_end(key + ".end", sheet.end);

@@ -26,6 +26,7 @@ void Model::open_ledger()
 {
   now_.ledger = Ledger{};
   now_.ledger.plastic_at_start = plastic_work();
+  now_.ledger.rupture_at_start = rupture_energy();
   now_.ledger.elastic_at_start = elastic_energy();
   now_.ledger.potential_at_start = potential_energy();
   now_.ledger.kinetic_at_start = now_.kinetic;
@@ -154,9 +155,20 @@ double Model::stress_power() const
     for (std::size_t p = 0; p < body.particles.size(); ++p)
       power += body.particles.volume[p] * (s[0][p] * l[0][p] + s[1][p] * l[3][p] + s[2][p] * (l[1][p] + l[2][p]));
   }
+  for (const ModelSheet& sheet : now_.sheets)
+    power += sheet.sheet.stress_power();
   return power;
 }
 
+double Model::rupture_energy() const
+{
+  double energy = 0.0;
+  for (const ModelSheet& sheet : now_.sheets)
+    energy += sheet.sheet.rupture_energy();
+  return energy;
+}
+
+/// What tensions that follow from positions store, W/m. Membrane points are in stress_power().
 double Model::tension_power() const
 {
   double power = 0.0;
@@ -187,8 +199,9 @@ EnergyFrame Model::energy() const
   e.dissipated_plastic = plastic_work() - now_.ledger.plastic_at_start;
   e.dissipated_contact = now_.ledger.contact + now_.ledger.faces;
   e.dissipated_transfer = now_.ledger.transfer;
+  e.dissipated_rupture = rupture_energy() - now_.ledger.rupture_at_start;
   e.dissipated = e.dissipated_plastic + e.dissipated_contact + e.dissipated_transfer + now_.ledger.damped +
-                 now_.ledger.material_damping;
+                 now_.ledger.material_damping + e.dissipated_rupture;
   e.work_in = now_.ledger.work_in;
   // The balance is struck where the velocities live, at mid-step.
   const double kinetic = e.kinetic - now_.ledger.kinetic_at_start;
@@ -236,6 +249,8 @@ std::uint64_t Model::digest() const
   for (const ModelSheet& sheet : now_.sheets) {
     add_particles(sheet.sheet.nodes());
     add(sheet.sheet.tension());
+    if (sheet.sheet.ruptures() > 0)
+      add(sheet.sheet.nodes().dissipated);  // of broken pieces alone not zero
   }
   return hash;
 }

@@ -96,6 +96,27 @@ void start_on_solution(const Manufactured& solution, mpm::Particles<2>& particle
   }
 }
 
+/// The seams where they are in the sheet as it is laid.
+geotextile::Strength strength_of(const GeotextileDescription& description, const geotextile::Sheet& sheet)
+{
+  std::vector<geotextile::Seam> seams;
+  for (const auto& [name, seam] : description.seams) {
+    const std::size_t n = sheet.segments();
+    std::size_t place = 0;
+    if (seam.along)
+      place = std::min(n - 1, static_cast<std::size_t>(*seam.along * static_cast<double>(n)));
+    const auto distance = [&](std::size_t i) {
+      return (0.5 * (sheet.node(i) + sheet.node(sheet.end_of(i))) - *seam.at_m).norm();
+    };
+    if (seam.at_m)
+      for (std::size_t i = 1; i < n; ++i)
+        if (distance(i) < distance(place))
+          place = i;
+    seams.push_back({ name, place, seam.efficiency.value_or(description.seam_efficiency) });
+  }
+  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
+}
+
 }  // namespace
 
 Model::Model(const SceneDescription& scene, int threads)
@@ -197,9 +218,14 @@ void Model::build_sheets(const SceneDescription& scene)
     parameters.computational_mass = description.computational_mass_kg_per_m2;
     parameters.segment_length = description.segment_length_m;
     parameters.gauge_length = description.gauge_length_m;
+    parameters.formulation = description.formulation;
+    parameters.force_strain = description.force_strain_table;
+    parameters.rupture_strain = description.rupture_strain;
     const geotextile::SheetLayout layout = sheet_layout(description, scene);
     parameters.unstretched_length = unstretched_length(description, layout);
-    ModelSheet sheet{ name, 0, geotextile::Sheet(layout, parameters) };
+    geotextile::Sheet laid(layout, parameters);
+    const geotextile::Strength strength = strength_of(description, laid);
+    ModelSheet sheet{ name, 0, std::move(laid), strength };
     if (free) {
       sheet.field = field_index(description.velocity_field);
       set_velocity(description.initial_velocity_m_per_s, 0.0, description.initial_velocity_wave, sheet.sheet.nodes());

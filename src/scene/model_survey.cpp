@@ -118,8 +118,7 @@ std::size_t Model::active_segments() const
 {
   std::size_t active = 0;
   for (const ModelSheet& sheet : now_.sheets)
-    for (std::size_t i = 0; i < sheet.sheet.segments(); ++i)
-      active += sheet.sheet.segment(i).active ? 1 : 0;
+    active += sheet.sheet.active_pieces();
   return active;
 }
 
@@ -143,11 +142,7 @@ void Model::assemble_bound(std::size_t f)
     if (now_.sheets[s].field != f)
       continue;
     field.bound.add_mass(sheet.nodes());
-    for (std::size_t i = 0; i < sheet.segments(); ++i) {
-      const geotextile::SheetSegment segment = sheet.segment(i);
-      if (segment.active)
-        field.bound.add_segment(sheet.node(segment.start), sheet.node(segment.end), segment.stiffness);
-    }
+    sheet.add_stiffness(field.bound);
   }
 }
 

@@ -69,7 +69,8 @@ void Model::scatter(Part part)
     mpm::body_to_grid(method_, body.particles, body.strips, { part, body.manufactured != nullptr, body.damping },
                       now_.gravity, fields_[body.field].grid, *team_);
   for (const ModelSheet& sheet : now_.sheets)
-    mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid);
+    mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid,
+                       sheet.sheet.strains_with_grid());
 }
 
 void Model::add_tractions(double time_s)
@@ -124,6 +125,7 @@ void Model::stress_first(double dt)
   for (Field& field : fields_)
     field.update.velocities(method_, field.grid, *team_);
   gather_bodies(Gather::gradient, dt);
+  gather_sheets(Gather::gradient, dt);
   smooth_gradients();
   update_stress(dt);
   for (Field& field : fields_)
@@ -137,12 +139,13 @@ void Model::move_particles(const StepInput& input)
   const double dt = input.dt_s;
   if (method_.update == UpdateOrder::usl && !mpm::smooths_gradients(method_)) {
     gather_bodies(Gather::all, dt);
-    gather_sheets(Gather::motion, dt);
+    gather_sheets(Gather::all, dt);
   } else if (method_.update == UpdateOrder::musl) {
     gather_bodies(Gather::velocity, dt);
     gather_sheets(Gather::velocity, dt);
     map_back(input);
     gather_bodies(Gather::gradient, dt);
+    gather_sheets(Gather::gradient, dt);
     smooth_gradients();
     gather_bodies(Gather::position, dt);
     gather_sheets(Gather::position, dt);
@@ -152,7 +155,7 @@ void Model::move_particles(const StepInput& input)
       smooth_gradients();
     }
     gather_bodies(Gather::motion, dt);
-    gather_sheets(Gather::motion, dt);
+    gather_sheets(method_.update == UpdateOrder::usl ? Gather::all : Gather::motion, dt);
   }
   move_tracers(dt);
   for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
@@ -192,9 +195,14 @@ void Model::gather_bodies(Gather what, double dt)
 
 void Model::gather_sheets(Gather what, double dt)
 {
-  for (ModelSheet& sheet : now_.sheets)
-    mpm::grid_to_particles(method_, fields_[sheet.field].grid, dt, what, sheet.sheet.nodes(), 0,
+  for (ModelSheet& sheet : now_.sheets) {
+    const bool strains = sheet.sheet.strains_with_grid();  // gradients are for who strains by them
+    if (what == Gather::gradient && !strains)
+      continue;
+    mpm::grid_to_particles(method_, fields_[sheet.field].grid, dt,
+                           what == Gather::all && !strains ? Gather::motion : what, sheet.sheet.nodes(), 0,
                            sheet.sheet.nodes().size());
+  }
 }
 
 void Model::move_tracers(double dt)
@@ -216,6 +224,8 @@ void Model::update_stress(double dt)
     for_chunks(body.particles.size(), *team_,
                [&](std::size_t first, std::size_t last) { body.law->update(batch, dt, first, last); });
   }
+  for (ModelSheet& sheet : now_.sheets)
+    sheet.sheet.update_stress(dt);
 }
 
 }  // namespace geocontainer_mpm::scene

@@ -33,12 +33,20 @@ void ReleaseWatch::observe(const Model& model, double time_s, const barge::Openi
   if (initial_volume_ < 0.0)
     initial_volume_ = soil_volume(model);
   current_ = 0.0;
+  ruptures_ = 0;
   for (const ModelSheet& enclosing : model.sheets()) {
     const geotextile::Sheet& sheet = enclosing.sheet;
     sheet.gauge_tension(gauge_);
     const auto largest = std::max_element(gauge_.begin(), gauge_.end());
     current_ = std::max(current_, *largest);
     elongation_ = std::max(elongation_, sheet.largest_strain());
+    const geotextile::Utilisation used = enclosing.strength.utilisation(gauge_);
+    utilisation_ = { std::max(utilisation_.sheet, used.sheet), std::max(utilisation_.seam, used.seam) };
+    ruptures_ += sheet.ruptures();
+    if (rupture_time_s_ < 0.0 && sheet.ruptures() > 0) {
+      rupture_time_s_ = time_s;
+      rupture_position_ = sheet.rupture_place();
+    }
     if (*largest > peak_) {
       const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
       peak_ = *largest;
@@ -79,6 +87,11 @@ StatusFrame ReleaseWatch::status(const Model& model) const
   status.elongation_max = elongation_;
   status.soil_volume_m2 = soil_volume(model);
   status.soil_volume_initial_m2 = initial_volume_;
+  status.peak_utilisation_sheet = utilisation_.sheet;
+  status.peak_utilisation_seam = utilisation_.seam;
+  status.ruptures = ruptures_;
+  status.rupture_time_s = rupture_time_s_;
+  status.rupture_position_m = rupture_position_;
 
   Vec2 lower = Vec2::Constant(1e300), upper = -lower;
   const auto extend = [&](const mpm::Particles<2>& particles, std::size_t p) {
@@ -134,7 +147,7 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     sheet.gauge_tension(geotextile.gauge_tension);
     geotextile.gauge_length_m = description.gauge_length_m;
     geotextile.strength_n_per_m = description.strength_n_per_m;
-    geotextile.seam_strength_n_per_m = description.strength_n_per_m * description.seam_efficiency;
+    geotextile.seam_strength_n_per_m = enclosing.strength.weakest_seam();
     frame.geotextile.push_back(std::move(geotextile));
   }
   for (std::size_t b = 0; b < model.boundaries().size(); ++b) {

@@ -239,7 +239,8 @@ double unstretched_length(const GeotextileDescription& sheet, const geotextile::
     return *sheet.circumference_m;
   if (sheet.slack)
     return path * (1.0 + *sheet.slack);
-  return path / (1.0 + sheet.pretension_n_per_m.value_or(0.0) / sheet.stiffness_n_per_m);
+  const geotextile::ForceStrain law(sheet.stiffness_n_per_m, sheet.force_strain_table);
+  return path / (1.0 + law.strain(sheet.pretension_n_per_m.value_or(0.0)));
 }
 
 double top_at(const std::vector<Vec2>& polygon, double y)

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "geocontainer_mpm/scene/simulation.h"
@@ -43,6 +44,7 @@ Json energy(const EnergyFrame& frame)
            { "dissipated_plastic", frame.dissipated_plastic },
            { "dissipated_contact", frame.dissipated_contact },
            { "dissipated_transfer", frame.dissipated_transfer },
+           { "dissipated_rupture", frame.dissipated_rupture },
            { "work_in", frame.work_in },
            { "unbalanced", frame.unbalanced },
            { "relative_balance_error", frame.relative_balance_error },
@@ -84,11 +86,14 @@ void add_geotextile(Json& summary, const SceneDescription& scene, const StatusFr
   summary["peak_tension_n_per_m"] = present ? Json(status.peak_tension_n_per_m) : Json();
   summary["peak_tension_time_s"] = taut ? Json(status.peak_tension_time_s) : Json();
   summary["peak_tension_position_m"] = taut ? pair(status.peak_tension_position_m) : Json();
-  summary["peak_utilisation"] = Json();
-  if (scene.geotextiles.size() == 1) {
-    const GeotextileDescription& sheet = scene.geotextiles.begin()->second;
-    summary["peak_utilisation"] = status.peak_tension_n_per_m / (sheet.strength_n_per_m * sheet.seam_efficiency);
-  }
+  const double sheet = status.peak_utilisation_sheet, seam = status.peak_utilisation_seam;
+  summary["peak_utilisation"] = present ? Json(std::max(sheet, seam)) : Json();
+  summary["peak_utilisation_sheet"] = present ? Json(sheet) : Json();
+  summary["peak_utilisation_seam"] = present ? Json(seam) : Json();
+  summary["ruptured"] = status.ruptures == 0 ? Json()
+                                             : Json{ { "pieces", status.ruptures },
+                                                     { "time_s", status.rupture_time_s },
+                                                     { "position_m", pair(status.rupture_position_m) } };
   summary["residual_tension_n_per_m"] = present ? Json(status.current_tension_n_per_m) : Json();
   summary["geotextile_elongation_max"] = present ? Json(status.elongation_max) : Json();
 }

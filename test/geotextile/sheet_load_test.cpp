@@ -270,18 +270,12 @@ TEST(OpenSheet, GaugeStopsAtItsEnds)
   }
 }
 
-TEST(OpenSheet, TellsItsSegmentsAsSprings)
+TEST(OpenSheet, CountsWhatIsTautOrNearlySo)
 {
   Sheet sheet({ { { 0.0, 0.0 }, { 1.0, 0.0 } }, false }, parameters(1.0, 0.25));
   set_vector<2>(sheet.nodes().position, 4, { 0.9, 0.0 });
   sheet.update_forces();
-  for (std::size_t i = 0; i < 4; ++i) {
-    const SheetSegment segment = sheet.segment(i);
-    EXPECT_EQ(segment.start, i);
-    EXPECT_EQ(segment.end, i + 1);
-    EXPECT_EQ(segment.stiffness, stiffness / 0.25);
-    EXPECT_EQ(segment.active, i != 3);
-  }
+  EXPECT_EQ(sheet.active_pieces(), 3U);  // the last is 40 % too short
 }
 
 }  // namespace

@@ -169,7 +169,11 @@ geotextiles:
     computational_mass_kg_per_m2: 20
     strength_n_per_m: 200e3
     seam_efficiency: 0.8
-    segment_length_m: 0.1
+    seams:
+      left: { at_m: [-0.5, -5], efficiency: 0.7 }
+      right: { along: 0.25 }
+    segment_length_m: 0.05
+    formulation: membrane_points
     gauge_length_m: 0.4
   cable:
     line: { points_m: [[-1, -5], [0, -5.2], [1, -5]], closed: false }
@@ -177,6 +181,7 @@ geotextiles:
     start: { held: true, motion_table: [[0, 0, 0], [1, 0.1, -0.1]] }
     end: { held: false, force_n_per_m: [10, 5], force_table: [[0, 0], [1, 1]] }
     velocity_field: cable
+    force_strain_table: [[0, 0], [0.05, 3e4], [0.15, 1.2e5]]
     initial_velocity_m_per_s: [0, 0.1]
     initial_velocity_wave: { amplitude_m_per_s: [0, 0.2], wave_number_rad_per_m: [2, 0], phase_rad: 0.1 }
     stiffness_n_per_m: 1.0e5
@@ -187,6 +192,7 @@ geotextiles:
   tube:
     circle: { center_m: [0, -5], radius_m: 0.15 }
     pretension_n_per_m: 100
+    rupture_strain: 0.12
     inside_pressure: { pressure_pa: 50, gradient_pa_per_m: 9810, level_m: -4.5, table: [[0, 0], [0.5, 1]] }
     velocity_field: cable
     stiffness_n_per_m: 1.0e5

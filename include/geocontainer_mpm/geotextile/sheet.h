@@ -1,14 +1,27 @@
 #pragma once
-/// The geotextile as a FEM surface coupled to the grid (Hamad, Moormann, Vermeer 2012; Hamad et al. 2014): nodes are
-/// material points that move with the grid's velocity, two-node segments between them carry tension only.
+/// The geotextile, in two formulations behind one interface. Both are rows of material points that move with the grid's
+/// velocity and carry the sheet's mass, its contact and the loads on it; they differ in how tension arises and acts:
+///
+/// segments (default; Hamad, Moormann, Vermeer 2012; Hamad et al. 2014): a FEM surface coupled to the grid. Two-node
+/// segments between the points are strained by the points' positions and pull at the points.
+///
+/// membrane_points (York, Sulsky and Schreyer 1999, IJNME 44:1429; 2000, 48:901): each point is a piece of membrane of
+/// length l and no bending stiffness. The grid's velocity gradient L at the point stretches it along its tangent t,
+/// d(ln l)/dt = t.L.t, and its stress, tension times t (x) t with nothing normal to the sheet and no shear, acts as
+/// that of a soil particle, f_i = - T l t (t . grad w_i). The tangent is that of the chord between the point's
+/// neighbours in the layer (York's way): it follows from where the layer is, while one pushed forward with F follows
+/// from all that the grid ever said about one point and leaves the layer for good where points part or fold below a
+/// cell. Power T l t.L.t is conjugate to the stretch whatever the tangent, so energy is kept, and a rigid rotation,
+/// t.L.t = 0, changes no tension. The stretch is a memory of its own: nothing pulls it back to the distance of the
+/// points.
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "geocontainer_mpm/mpm/grid.h"
+#include "geocontainer_mpm/geotextile/force_strain.h"
+#include "geocontainer_mpm/mpm/frequency_bound.h"
 #include "geocontainer_mpm/mpm/particles.h"
 
 namespace geocontainer_mpm::geotextile {
@@ -19,13 +32,18 @@ struct SheetLayout {
   bool closed = false;       ///< joined from the last point to the first
 };
 
+enum class Formulation { segments, membrane_points };
+
 struct SheetParameters {
   double unstretched_length = 0.0;  ///< around, or from end to end, m
-  double stiffness = 0.0;           ///< J, N/m
+  double stiffness = 0.0;           ///< J, N/m; of no account where there is a table
   double mass = 0.0;                ///< true mass per area, kg/m^2
   double computational_mass = 0.0;  ///< inertia per area under mass scaling, kg/m^2
   double segment_length = 0.0;      ///< wanted, m
   double gauge_length = 0.0;        ///< m
+  Formulation formulation = Formulation::segments;
+  std::vector<ForceStrainRow> force_strain;  ///< see ForceStrain; empty: linear
+  std::optional<double> rupture_strain;      ///< from this strain on a piece carries nothing
 };
 
 /// What acts on a sheet beside its own tension, for one step.
@@ -36,13 +54,6 @@ struct SheetLoad {
   double gradient = 0.0;  ///< Pa/m
   std::optional<double> level;
   Vec2 start_force = Vec2::Zero(), end_force = Vec2::Zero();  ///< at the ends of an open sheet, N/m
-};
-
-/// One segment as a spring between two nodes, for whoever assembles stiffness.
-struct SheetSegment {
-  std::size_t start, end;  ///< nodes
-  double stiffness;        ///< J / l0, N/m^2: force per width and lengthening
-  bool active;             ///< taut, or so little slack that it may tighten within a step
 };
 
 /// A sheet in plane strain. Segment i goes from node i to the next one; of a closed sheet the last goes back to node 0,
@@ -60,50 +71,74 @@ public:
   Vec2 node(std::size_t i) const { return { nodes_.position[0][i], nodes_.position[1][i] }; }
   /// Node at the end of a segment; the one at its start has the segment's own number.
   std::size_t end_of(std::size_t segment) const { return segment + 1 < nodes_.size() ? segment + 1 : 0; }
-  /// As of the last update_forces().
-  SheetSegment segment(std::size_t i) const;
 
-  /// Tension of every segment from the nodes' positions, T = J max(0, l / l0 - 1), and the forces on the nodes, loads
-  /// included. Returns whether there are any; if not, the forces are zero and need no second look.
+  /// Before a transfer: forces on the nodes from loads and, of segments, from the tension that the nodes' positions
+  /// give; of membrane points the stress. Returns whether anything acts; if not, forces and stress are zero.
   bool update_forces(const SheetLoad& load = {});
+  /// Membrane points, which strain with the grid: their gather is to bring the velocity gradient too, and their scatter
+  /// takes the stress in nodes() to the grid.
+  bool strains_with_grid() const { return parameters_.formulation == Formulation::membrane_points; }
+  /// After a gather of velocity gradients, where a body updates its stress: stretch and stress of membrane points.
+  /// Segments do nothing.
+  void update_stress(double dt);
 
-  const std::vector<double>& tension() const { return tension_; }  ///< per segment, N/m
+  /// Per segment, N/m. Of membrane points the mean of the two at its ends.
+  const std::vector<double>& tension() const { return tension_; }
   /// Mean tension over the gauge length around each segment's middle, or what of it an open sheet has there, N/m.
   void gauge_tension(std::vector<double>& result) const;
   double elastic_energy() const;  ///< J/m
-  double largest_strain() const;  ///< >= 0
+  double largest_strain() const;  ///< of what has a tension, >= 0
   double length() const;          ///< along the nodes, m
   double enclosed_area() const;   ///< m^2; of an open sheet 0
   /// Loads of the last update_forces() times the nodes' present velocities, W/m. The work over a step that kicks for
   /// the time `kick` is kick times the mean of this before and after the step.
   double external_power() const;
-  /// What the tensions of the last update_forces() store in a time at the nodes' present velocities, W/m.
+  /// What the tensions of segments, as of the last update_forces(), store in a time at the nodes' present velocities,
+  /// W/m. Of membrane points 0.
   double tension_power() const;
+  /// What the present tensions of membrane points store in a time at the velocity gradients of the last gather, W/m: as
+  /// the stress power of a body. Of segments 0.
+  double stress_power() const;
 
-  /// Bound on the square of the largest frequency that the sheet adds to the grid whose nodal masses stand in `grid`,
-  /// 1/s^2: element by element, each segment taking the part of the nodal mass that its stiffness has there. Segments
-  /// that are slack by more than a margin add nothing. Call after update_forces().
-  double frequency_bound(const mpm::Grid<2>& grid);
+  /// Pieces, segments or membrane points, that have reached the rupture strain; where the first did, m; and the energy
+  /// that was stored in them, J/m. A broken piece carries nothing from then on; the line of nodes stays, for contact
+  /// and pressure.
+  std::size_t ruptures() const { return ruptures_; }
+  const Vec2& rupture_place() const { return rupture_place_; }
+  double rupture_energy() const;
+
+  /// Pieces that are taut, or so little slack that they may tighten within a step; as of the last update_forces().
+  std::size_t active_pieces() const;
+  /// Their stiffness, with the steepest tangent of the force-strain curve. Rigorous for the elastic stiffness alone:
+  /// that of tension across the sheet is below it for segments and, T being a few per cent of J, small for points.
+  void add_stiffness(mpm::FrequencyBound<2>& bound) const;
 
 private:
+  double carried(std::size_t piece, double strain, const Vec2& place);
+  bool is_active(std::size_t piece) const;
+  bool pull_with_segments();
   void add_pressure(const SheetLoad& load);
   double twice_signed_area() const;  ///< positive against the clock
 
-  SheetParameters parameters_;
-  mpm::Particles<2> nodes_;
-  double outwards_ = 0.0;  ///< 1 if the right side of a segment looks outwards, -1 if its left side; open: 0
-  std::vector<double> rest_length_, tension_, strain_;
-  std::array<mpm::Column, 2> external_;  ///< of it all, what loads add to the forces, N/m
+  // membrane_points.cpp
+  void lay_points();
+  void find_tangents();
+  bool stress_points();
 
-  /// How the weights of one segment's ends differ over the grid nodes that either reaches.
-  struct Difference {
-    std::array<std::uint32_t, 36> node;
-    std::array<double, 36> magnitude;  ///< |w_i(b) - w_i(a)|
-    std::size_t count;
-  };
-  Difference difference(std::size_t segment, const mpm::Grid<2>& grid) const;
-  std::vector<Difference> differences_;  ///< scratch of frequency_bound
-  std::vector<double> nodal_stiffness_;  ///< scratch over grid nodes, zero between calls
+  SheetParameters parameters_;
+  ForceStrain law_;
+  mpm::Particles<2> nodes_;  ///< of membrane points with stress (tension over a thickness of 1 m) and volume (length)
+  double outwards_ = 0.0;    ///< 1 if the right side of a segment looks outwards, -1 if its left side; open: 0
+  std::vector<double> rest_length_, tension_;  ///< per segment
+  std::vector<double> piece_length_, strain_;  ///< unstretched, m; per piece: segment or membrane point
+  std::vector<char> broken_;                   ///< per piece
+  std::size_t ruptures_ = 0;
+  Vec2 rupture_place_ = Vec2::Zero();
+  std::array<mpm::Column, 2> external_;  ///< of it all, what loads add to the forces, N/m
+  // Of membrane points alone.
+  mpm::Column stretch_;                 ///< length over unstretched length
+  std::array<mpm::Column, 2> tangent_;  ///< as of the last update_forces()
+  mpm::Column point_tension_;           ///< N/m
 };
 
 }  // namespace geocontainer_mpm::geotextile

@@ -8,7 +8,7 @@
 ///     m_i^e = m_i s_i^e / S_i,   s_i^e = x_e k_e b_i^e,   S_i = sum_e s_i^e
 ///
 /// with stiffness k_e = V (lambda + 2 G) / h^2 and b_i = h |grad w_i|_1 of a particle, k_e = J / l0 and b_i = |dw_i| of
-/// a segment. Every x_e > 0 gives a bound. x_e = 1 first; then x_e is what the element's own frequency came out as,
+/// a segment (k_e and b_i of a membrane point: see add_fibre). Every x_e > 0 gives a bound. x_e = 1 first; then x_e is what the element's own frequency came out as,
 /// which is one step of power iteration towards the Perron vector of the matrix |B| M^-1 |B|^T (Collatz 1942): stiff
 /// places borrow mass from soft neighbours. A third round would gain 2 % more, at a third more cost.
 ///
@@ -101,6 +101,10 @@ public:
   /// A segment from `a` to `b` (m) that pulls with `stiffness` = J / l0, N/m per m of relative displacement. Leave out
   /// what is slack and stays so.
   void add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness);
+  /// A membrane point at `x` that resists stretch along the unit vector `along`: K_ij = stiffness b_i b_j along (x)
+  /// along, b_i = along . grad w_i. Stiffness is tangent modulus, N/m, times present length squared over unstretched
+  /// length: N (N m in space). To the rounds it is a segment with |b_i| for |dw_i|.
+  void add_fibre(const Vec<Dim>& x, const Vec<Dim>& along, double stiffness);
   /// Three rounds over particles and segments, and three more where anything is viscous. One thread; no allocation
   /// once it has seen as many elements.
   Result bound();

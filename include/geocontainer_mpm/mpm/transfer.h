@@ -60,10 +60,11 @@ template <int Dim>
 void body_to_grid(const Discretisation& discretisation, const Particles<Dim>& particles, const Strips& strips,
                   const BodyTerms& terms, const Vec<Dim>& gravity, Grid<Dim>& grid, ThreadTeam& team);
 
-/// The same for the nodes of a sheet: no stress, but an external force each. Few of them, so one thread.
+/// The same for the nodes of a sheet: an external force each, and stress only where it is made of membrane points. Few
+/// of them, so one thread.
 template <int Dim>
 void sheet_to_grid(const Discretisation& discretisation, const Particles<Dim>& nodes, Part part,
-                   const Vec<Dim>& gravity, Grid<Dim>& grid);
+                   const Vec<Dim>& gravity, Grid<Dim>& grid, bool stressed = false);
 
 /// Rows [begin, end) from the grid's velocities; positions move by dt times the grid's velocity at the particle.
 /// FLIP: v <- f (v + sum w (v_new - v_old)) + (1 - f) sum w v_new with f the flip_fraction (Stomakhin et al. 2013),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geocontainer_mpm/barge/opening_signal.h"
+#include "geocontainer_mpm/geotextile/sheet.h"
 #include "geocontainer_mpm/material/parameters.h"
 #include "geocontainer_mpm/mpm/discretisation.h"
 #include "geocontainer_mpm/mpm/grid.h"
@@ -178,6 +179,14 @@ struct InsidePressure {
   TimeTable<1> table;  ///< [t, factor]; empty: 1
 };
 
+/// A seam that is named. The slice cuts it in a point of the sheet.
+struct SeamDescription {
+  // Exactly one of these two says where, in the sheet as it is laid.
+  std::optional<Vec2> at_m;          ///< the segment nearest to this point
+  std::optional<double> along;       ///< part of the sheet's length from its first point, [0, 1]
+  std::optional<double> efficiency;  ///< its strength over the sheet's, (0, 1]; not given: the sheet's seam_efficiency
+};
+
 struct GeotextileDescription {
   // Exactly one of these three says where it is laid.
   std::string encloses;  ///< the body around whose outline the closed sheet is laid
@@ -193,13 +202,17 @@ struct GeotextileDescription {
   std::string velocity_field;                         ///< of a free sheet; an enclosing one moves with its body
   Vec2 initial_velocity_m_per_s = Vec2::Zero();       ///< of a free sheet
   std::optional<VelocityWave> initial_velocity_wave;  ///< of a free sheet, on top
-  double stiffness_n_per_m = 0.0;                     ///< J (warp), force per width and strain, > 0
+  double stiffness_n_per_m = 0.0;                     ///< J (warp), force per width and strain, > 0; unless a table is
   double mass_kg_per_m2 = 0.0;                        ///< true mass: what gravity pulls, > 0
   double computational_mass_kg_per_m2 = 0.0;          ///< inertia used (mass scaling), >= true mass
   double strength_n_per_m = 0.0;                      ///< tensile strength of the sheet (warp), > 0
   double seam_efficiency = 0.85;                      ///< strength of a seam over the sheet's, (0, 1]
   double segment_length_m = 0.0;                      ///< wanted length of a membrane segment, > 0; about a cell
   double gauge_length_m = 0.5;  ///< reported tension is the mean over this length, >= segment length
+  geotextile::Formulation formulation = geotextile::Formulation::segments;
+  std::vector<geotextile::ForceStrainRow> force_strain_table;  ///< from (0, 0), ascending; empty: linear, J
+  std::optional<double> rupture_strain;          ///< from which on a piece carries nothing, > 0; not given: never
+  std::map<std::string, SeamDescription> seams;  ///< none: one of seam_efficiency may be anywhere
 };
 
 /// One opening row of a table: time, s, and both angles, rad.

@@ -2,6 +2,7 @@
 /// One instant of a run as everybody downstream sees it: record, topics, forecast. Plain data, owned by the receiver.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -64,6 +65,7 @@ struct EnergyFrame {
   double dissipated_transfer = 0.0;     ///< lost by the particle-grid transfer: numerical
   double work_in = 0.0;                 ///< done on the material by moving boundaries, since the start
   double unbalanced = 0.0;              ///< change + dissipated - work in: energy from nowhere, since the start
+  double dissipated_rupture = 0.0;      ///< what was stored in pieces of sheets that broke
   double relative_balance_error = 0.0;  ///< |change + dissipated - work in| over all energy that changed hands
 };
 
@@ -80,6 +82,11 @@ struct StatusFrame {
   double width_m = 0.0, height_m = 0.0;  ///< extent of the container now
   double soil_volume_m2 = 0.0;           ///< per unit width, now
   double soil_volume_initial_m2 = 0.0;
+  double peak_utilisation_sheet = 0.0;  ///< largest gauge tension over the sheet's strength so far
+  double peak_utilisation_seam = 0.0;   ///< the same at the seams, over theirs
+  std::size_t ruptures = 0;             ///< pieces of sheets that broke
+  double rupture_time_s = -1.0;         ///< when the first did; < 0: none
+  Vec2 rupture_position_m = Vec2::Zero();
 };
 
 /// What one probe measured since the frame before.

@@ -10,6 +10,7 @@
 #include "geocontainer_mpm/contact/contact_solver.h"
 #include "geocontainer_mpm/contact/field_contact.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
+#include "geocontainer_mpm/geotextile/strength.h"
 #include "geocontainer_mpm/mpm/frequency_bound.h"
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/grid_update.h"
@@ -50,6 +51,7 @@ struct ModelSheet {
   std::string name;
   std::size_t field = 0;
   geotextile::Sheet sheet;
+  geotextile::Strength strength;
 };
 
 /// A point of a body that is watched. It is carried by the particle nearest to it at the start: on the surface the
@@ -72,7 +74,8 @@ struct BoundaryTotal {
 /// Energies that changed hands since the ledger was opened, per unit width, J/m, and what momentum did.
 struct Ledger {
   double contact = 0.0, transfer = 0.0, faces = 0.0, damped = 0.0, material_damping = 0.0, work_in = 0.0;
-  double plastic_at_start = 0.0, kinetic_at_start = 0.0, elastic_at_start = 0.0, potential_at_start = 0.0;
+  double plastic_at_start = 0.0, rupture_at_start = 0.0, kinetic_at_start = 0.0, elastic_at_start = 0.0,
+         potential_at_start = 0.0;
   double momentum_error = 0.0, momentum_exchanged = 0.0;  ///< N s / m, summed over steps away from faces
 };
 
@@ -227,6 +230,7 @@ private:
   double damping_power() const;
   double stress_power() const;
   double tension_power() const;
+  double rupture_energy() const;
   double half_step_work() const;
 
   std::shared_ptr<mpm::ThreadTeam> team_;  ///< shared by copies of the model: one steps at a time

@@ -28,6 +28,10 @@ private:
   double peak_ = 0.0, peak_time_s_ = 0.0, current_ = 0.0, elongation_ = 0.0;
   Vec2 peak_position_ = Vec2::Zero();
   double initial_volume_ = -1.0;
+  geotextile::Utilisation utilisation_;
+  std::size_t ruptures_ = 0;
+  double rupture_time_s_ = -1.0;
+  Vec2 rupture_position_ = Vec2::Zero();
   std::vector<double> gauge_;  ///< scratch
 };
 

@@ -15,6 +15,9 @@ REMARKS = "Tension at the end is that of the cable's point nearest to it, compar
 
 LENGTH, HALF_SPAN, WEIGHT = 2.5, 1.0, 98.1
 SIZES = [0.2, 0.1, 0.05]
+# York's membrane points beside the default, segments; they need several a cell (docs/study/membranes.md).
+FORMULATIONS = {"default": "segments", "membrane points": "membrane_points"}
+SPACING = {"default": 1.0, "membrane points": 0.25}  # over the cell size
 
 
 def parameter():
@@ -30,31 +33,39 @@ A = parameter()
 SAG = A * (math.cosh(HALF_SPAN / A) - 1.0)
 
 
+def run(method, size, record):
+    return Run(f"{method} {size:g}", {
+        "grid.cell_size_m": size, "geotextiles.cable.segment_length_m": size * SPACING[method],
+        "geotextiles.cable.gauge_length_m": size, "geotextiles.cable.formulation": FORMULATIONS[method]}, method, record=record, effort=3 * (0.1 / size) ** 2)
+
+
 def runs(full):
-    return [Run(f"{size:g}", {"grid.cell_size_m": size, "geotextiles.cable.segment_length_m": size,
-                              "geotextiles.cable.gauge_length_m": size}, record=full,
-                effort=3 * (0.1 / size) ** 2) for size in (SIZES if full else [0.1])]
+    return [run(method, size, full) for method in FORMULATIONS for size in (SIZES if full else [0.1])]
 
 
 def quantities(results, full):
-    result = results["0.05" if full else "0.1"]
-    end = result.last("end", "point_z_m")
-    # The tension reported for a node is the mean of the segments that meet there; T = w (height above the directrix).
-    exact_end = WEIGHT * (A + SAG + end)
-    return [
-        # 1 % is the bar of the issue; the cable's own stretch is 0.07 %.
-        relative("sag", "default", -result.last("bottom", "lower_z_m"), SAG, "m", 0.01),
-        relative("tension at the bottom", "default", result.last("bottom", "point_tension_n_per_m"), WEIGHT * A, "N/m", 0.01),
-        relative("tension near the end", "default", result.last("end", "point_tension_n_per_m"), exact_end, "N/m", 0.01),
-    ]
+    figures = []
+    for method in FORMULATIONS:
+        result = results[f"{method} {0.05 if full else 0.1:g}"]
+        end = result.last("end", "point_z_m")
+        # The tension reported for a node is the mean of the segments that meet there; T = w (height above the directrix).
+        exact_end = WEIGHT * (A + SAG + end)
+        bottom = result.last("bottom", "point_tension_n_per_m")
+        figures += [
+            # 1 % is the bar of the issue; the cable's own stretch is 0.07 %.
+            relative("sag", method, -result.last("bottom", "lower_z_m"), SAG, "m", 0.01),
+            relative("tension at the bottom", method, bottom, WEIGHT * A, "N/m", 0.01),
+            relative("tension near the end", method, result.last("end", "point_tension_n_per_m"), exact_end, "N/m", 0.01),
+        ]
+    return figures
 
 
 def convergence(results):
-    return [Convergence("sag", "relative error", "", SIZES,
-                        [abs(results[f"{size:g}"].last("bottom", "lower_z_m") / SAG + 1) for size in SIZES]),
-            Convergence("tension at the bottom", "relative error", "", SIZES,
-                        [abs(results[f"{size:g}"].last("bottom", "point_tension_n_per_m") / (WEIGHT * A) - 1)
-                         for size in SIZES])]
+    return [Convergence(f"{quantity}, {method}", "relative error", "", SIZES,
+                        [abs(results[f"{method} {size:g}"].last("bottom", column) / exact - 1) for size in SIZES])
+            for quantity, column, exact in (("sag", "lower_z_m", -SAG),
+                                            ("tension at the bottom", "point_tension_n_per_m", WEIGHT * A))
+            for method in FORMULATIONS]
 
 
 def draw(results, path):
@@ -62,7 +73,7 @@ def draw(results, path):
         y = np.linspace(-1, 1, 200)
         left.plot(y, A * np.cosh(y / A) - A * math.cosh(HALF_SPAN / A), label="catenary", **REFERENCE)
         for colour, size in zip(COLOURS, SIZES):
-            frames = results[f"{size:g}"].frames
+            frames = results[f"default {size:g}"].frames
             if frames:
                 left.plot(*frames[-1]["geotextile/node"].T, ".", color=colour, markersize=4, label=f"dx = {size:g} m")
         left.set(xlabel="y [m]", ylabel="z [m]", aspect="equal")
