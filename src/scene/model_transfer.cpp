@@ -35,7 +35,7 @@ geotextile::SheetLoad load_at(const GeotextileDescription& sheet, double time_s)
 
 }  // namespace
 
-/// Body forces of manufactured solutions and loads of sheets, as forces of their particles.
+/// Body forces of manufactured solutions, water, and loads of sheets, as forces of their particles.
 void Model::load_particles(double time_s)
 {
   load_sum_ = Vec2::Zero();
@@ -50,6 +50,7 @@ void Model::load_particles(double time_s)
       load_sum_ += force;
     }
   }
+  load_water();
   bool taut = false;
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
     geotextile::Sheet& sheet = now_.sheets[s].sheet;
@@ -66,7 +67,7 @@ void Model::load_particles(double time_s)
 void Model::scatter(Part part)
 {
   for (const Body& body : now_.bodies)
-    mpm::body_to_grid(method_, body.particles, body.strips, { part, body.manufactured != nullptr, body.damping },
+    mpm::body_to_grid(method_, body.particles, body.strips, { part, body.manufactured || water_, body.damping },
                       now_.gravity, fields_[body.field].grid, *team_);
   for (const ModelSheet& sheet : now_.sheets)
     mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid);
