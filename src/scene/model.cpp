@@ -80,7 +80,7 @@ void Model::transfer_to_grid(double time_s)
   load_power_before_ = load_power(time_s);
   drag_power_before_ = drag_power();
   if (books_transferred_work())
-    power_before_ = load_power_before_ + drag_power_before_ +
+    power_before_ = load_power_before_ + drag_power_before_ + slowed_power_ +
                     (gravity_table_.empty() ? gravity_power(now_.gravity) : 0.0) - stress_power() - damping_power() -
                     tension_power();
   clock.mark(stages_.p2g_s);

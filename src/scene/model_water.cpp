@@ -28,11 +28,13 @@ void Model::load_water()
   if (!water_)
     return;
   now_.water.drag = Vec2::Zero();
+  slowed_power_ = 0.0;
   for (std::size_t b = 0; b < now_.bodies.size(); ++b) {
     Body& body = now_.bodies[b];
-    const double left_behind = water_->immerse(body.density, body.particle_height, body.particles);
-    now_.ledger.water += left_behind;
-    now_.kinetic -= left_behind;
+    const Water::Uptake uptake = water_->immerse(body.density, body.particle_height, body.particles);
+    now_.ledger.water += uptake.left_behind;
+    now_.kinetic -= uptake.left_behind;
+    slowed_power_ += now_.gravity.dot(uptake.slowed);
     const mpm::Particles<2>& surface = surface_of(b);
     const double margin = &surface == &body.particles ? body.particle_height : 0.0;
     const Water::Drag drag = water_->resist(surface, margin, body.particle_height, body.particles);

@@ -69,9 +69,9 @@ void Water::place(double soil_density, double height, mpm::Particles<2>& particl
   }
 }
 
-double Water::immerse(double soil_density, double height, mpm::Particles<2>& particles) const
+Water::Uptake Water::immerse(double soil_density, double height, mpm::Particles<2>& particles) const
 {
-  double left_behind = 0.0;
+  Uptake uptake;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double displaced = density_ * submerged(particles.position[1][p], height),
                  volume = particles.initial_volume[p];
@@ -82,17 +82,18 @@ double Water::immerse(double soil_density, double height, mpm::Particles<2>& par
     particles.mass[p] = after;
     const double energy = 0.5 * velocity(particles, p).squaredNorm();
     if (after < before) {
-      left_behind += (before - after) * energy;
+      uptake.left_behind += (before - after) * energy;
       continue;
     }
     const double keep = before / after;
-    left_behind += before * (1.0 - keep) * energy;
+    uptake.left_behind += before * (1.0 - keep) * energy;
+    uptake.slowed += particles.weight_mass[p] * (1.0 - keep) * velocity(particles, p);
     for (mpm::Column& column : particles.velocity)
       column[p] *= keep;
     for (mpm::Column& column : particles.affine)
       column[p] *= keep;
   }
-  return left_behind;
+  return uptake;
 }
 
 Water::Drag Water::resist(const mpm::Particles<2>& surface, double margin, double height,

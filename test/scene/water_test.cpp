@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "geocontainer_mpm/error.h"
@@ -72,15 +73,14 @@ TEST(Buoyancy, CarriesAsMuchAsABodyDisplaces)
 
 TEST(Buoyancy, IsTakenFromWhatASupportCarries)
 {
-  // On a bed at -1 m the block is under water, at -0.1 m a quarter of it.
+  // On a bed at -1 m the block is under water, at -0.1 m a quarter of it. Damped by its own viscosity: damping by mass
+  // takes its part of the impulses on the bed. It ends 0.2 % shorter, and that much further out of the water.
   for (const auto& [bed, share] : { std::pair(-1.0, 1.0), std::pair(-0.1, 0.25) }) {
-    const Simulation simulation = finished(block(2000, bed, 0.0, 0.0,
-                                                 fmt::format(R"(
-surfaces:
-  bed: {{ line_m: [[-1, {0}], [1, {0}]], friction: 0.5 }}
-numerics: {{ damping_per_s: 20, skip_resting: false }})",
-                                                             bed)),
-                                           { "time.end_s=1.5", "probes.bed={surface: bed}" });
+    const std::string surfaces =
+        fmt::format("surfaces: {{ bed: {{ line_m: [[-1, {0}], [1, {0}]], friction: 0.5 }} }}", bed);
+    const Simulation simulation =
+        finished(block(2000, bed, 0.0, 0.0, surfaces),
+                 { "time.end_s=1.5", "probes.bed={surface: bed}", "materials.block.stiffness_damping_s=0.002" });
     const double carried = -column(simulation, "force_z_n_per_m", "bed").back();
     const double weight = (2000 - share * fresh) * 0.24 * gravity;
     EXPECT_NEAR(carried, weight, 2e-3 * weight) << bed;
@@ -249,7 +249,7 @@ RC_GTEST_PROP(Water, NeitherGivesEnergyNorMomentumToWhatGoesInOrOut, ())
   for (double& z : particles.position[1])
     z += *rc::gen::inRange(-300, 300) * 1e-3;
   const mpm::Particles<2> before = particles;
-  const double left = water.immerse(density, height, particles);
+  const double left = water.immerse(density, height, particles).left_behind;
   double lost = 0.0, scale = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const auto square = [p](const mpm::Particles<2>& all) {

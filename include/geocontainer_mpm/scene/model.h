@@ -274,6 +274,7 @@ private:
   double stable_dt_ = 0.0;
   double load_power_before_ = 0.0;  ///< of loads on the velocity before the step, W/m
   double drag_power_before_ = 0.0;  ///< of drag, W/m
+  double slowed_power_ = 0.0;       ///< of weight on the velocity that water taken up has taken, W/m
   double power_before_ = 0.0;       ///< of all forces on the motion before the transfer, W/m
   Vec2 load_sum_ = Vec2::Zero();    ///< of all loads but gravity, N/m
   StageTimes stages_;

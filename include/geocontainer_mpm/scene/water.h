@@ -31,11 +31,15 @@ public:
 
   /// Energy of buoyancy, J/m: zero above the water.
   double potential(const mpm::Particles<2>& particles, double height) const;
+  struct Uptake {
+    double left_behind = 0.0;    ///< kinetic energy, J/m
+    Vec2 slowed = Vec2::Zero();  ///< velocity that particles lost times their weight mass, kg/s
+  };
   /// Sets weight and inertia of every particle by its depth. Water that is taken up was at rest: momentum stays, and
   /// the particle slows down. Water that is left behind keeps its speed, and so does the particle. Either way kinetic
-  /// energy stays behind in the water: returned, J/m. (Von Karman 1929, NACA TN 321: F = d(m_a v)/dt at entry, half of
+  /// energy stays behind in the water. (Von Karman 1929, NACA TN 321: F = d(m_a v)/dt at entry, half of
   /// whose work goes into spray. At exit nothing pushes the body out.)
-  double immerse(double soil_density, double height, mpm::Particles<2>& particles) const;
+  Uptake immerse(double soil_density, double height, mpm::Particles<2>& particles) const;
   /// The same before the start, for water that moves with the body already.
   void place(double soil_density, double height, mpm::Particles<2>& particles) const;
 
