@@ -171,7 +171,7 @@ double Model::tension_power() const
   double power = 0.0;
   for (const ModelSheet& sheet : now_.sheets)
     power += sheet.sheet.tension_power();
-  return power;
+  return power + sheet_drag_power();  // which the sheet does not tell from its tension
 }
 
 /// Velocities live at mid-steps, positions and stresses half a step later or, what the next step has yet to make of the

@@ -50,7 +50,6 @@ void Model::load_particles(double time_s)
       load_sum_ += force;
     }
   }
-  load_water();
   bool taut = false;
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
     geotextile::Sheet& sheet = now_.sheets[s].sheet;
@@ -61,14 +60,16 @@ void Model::load_particles(double time_s)
       load_sum_ += Vec2(sheet.nodes().force[0][i], sheet.nodes().force[1][i]);
   }
   now_.skipped.membrane_passes += taut ? 0 : 1;
+  load_water();
 }
 
 /// All particles' share of the grids.
 void Model::scatter(Part part)
 {
   for (const Body& body : now_.bodies)
-    mpm::body_to_grid(method_, body.particles, body.strips, { part, body.manufactured || water_, body.damping },
-                      now_.gravity, fields_[body.field].grid, *team_);
+    mpm::body_to_grid(method_, body.particles, body.strips,
+                      { part, body.manufactured || (water_ && !body.enclosed), body.damping }, now_.gravity,
+                      fields_[body.field].grid, *team_);
   for (const ModelSheet& sheet : now_.sheets)
     mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid);
 }

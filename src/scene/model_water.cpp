@@ -22,7 +22,7 @@ void Model::weigh()
     add(sheet.sheet.nodes());
 }
 
-/// Weight, inertia and drag of every body where it is now.
+/// Weight, inertia and drag of every body where it is now. After the sheets' own forces.
 void Model::load_water()
 {
   if (!water_)
@@ -35,9 +35,20 @@ void Model::load_water()
     now_.ledger.water += uptake.left_behind;
     now_.kinetic -= uptake.left_behind;
     slowed_power_ += now_.gravity.dot(uptake.slowed);
-    const mpm::Particles<2>& surface = surface_of(b);
-    const double margin = &surface == &body.particles ? body.particle_height : 0.0;
-    const Water::Drag drag = water_->resist(surface, margin, body.particle_height, body.particles);
+    const std::size_t sheet = sheet_around(b);
+    Water::Drag drag;
+    if (sheet < now_.sheets.size()) {
+      mpm::Particles<2>& nodes = now_.sheets[sheet].sheet.nodes();
+      drag = water_->resist(nodes, 0.0, body.particle_height, body.particles);
+      now_.water.on_sheets.resize(now_.sheets.size());
+      water_->press(drag, nodes, now_.water.on_sheets[sheet]);
+      for (std::size_t d = 0; d < 2; ++d)
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          nodes.force[d][i] += now_.water.on_sheets[sheet][d][i];
+    } else {
+      drag = water_->resist(body.particles, body.particle_height, body.particle_height, body.particles);
+      water_->spread(drag, body.particle_height, body.particles);
+    }
     now_.water.drag += drag.force;
     now_.water.fastest_fall = std::max(now_.water.fastest_fall, -drag.velocity[1]);
   }
@@ -45,24 +56,36 @@ void Model::load_water()
   weigh();
 }
 
-/// What a body shows to the water: the sheet around it, or itself.
-const mpm::Particles<2>& Model::surface_of(std::size_t body) const
+/// Index of the sheet around a body; of a bare one the number of sheets.
+std::size_t Model::sheet_around(std::size_t body) const
 {
-  for (std::size_t s = 0; s < now_.sheets.size(); ++s)
-    if (sheet_descriptions_[s].encloses == now_.bodies[body].name)
-      return now_.sheets[s].sheet.nodes();
-  return now_.bodies[body].particles;
+  std::size_t s = 0;
+  while (s < now_.sheets.size() && sheet_descriptions_[s].encloses != now_.bodies[body].name)
+    ++s;
+  return s;
 }
 
-/// Power of drag on the particles' present velocities, W/m; not positive.
-double Model::drag_power() const
+/// Power of the drag that sheets take, on their nodes' present velocities, W/m.
+double Model::sheet_drag_power() const
 {
   double power = 0.0;
+  for (std::size_t s = 0; s < now_.water.on_sheets.size(); ++s)
+    for (std::size_t d = 0; d < 2; ++d)
+      for (std::size_t i = 0; i < now_.water.on_sheets[s][d].size(); ++i)
+        power += now_.water.on_sheets[s][d][i] * now_.sheets[s].sheet.nodes().velocity[d][i];
+  return power;
+}
+
+/// Power of all drag on the present velocities, W/m.
+double Model::drag_power() const
+{
+  double power = sheet_drag_power();
   if (water_)
     for (const Body& body : now_.bodies)
-      for (std::size_t p = 0; p < body.particles.size(); ++p)
-        power += body.particles.force[0][p] * body.particles.velocity[0][p] +
-                 body.particles.force[1][p] * body.particles.velocity[1][p];
+      if (!body.enclosed)
+        for (std::size_t p = 0; p < body.particles.size(); ++p)
+          power += body.particles.force[0][p] * body.particles.velocity[0][p] +
+                   body.particles.force[1][p] * body.particles.velocity[1][p];
   return power;
 }
 

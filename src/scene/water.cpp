@@ -97,32 +97,61 @@ Water::Uptake Water::immerse(double soil_density, double height, mpm::Particles<
 }
 
 Water::Drag Water::resist(const mpm::Particles<2>& surface, double margin, double height,
-                          mpm::Particles<2>& particles) const
+                          const mpm::Particles<2>& particles) const
 {
   Drag drag;
-  double volume = 0.0, submerged_volume = 0.0;
+  double volume = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double part = submerged(particles.position[1][p], height) * particles.initial_volume[p];
     volume += particles.initial_volume[p];
-    submerged_volume += part;
+    drag.submerged_volume += part;
     drag.velocity += part * velocity(particles, p);
   }
-  if (submerged_volume > 0.0) {
-    drag.share = submerged_volume / volume;
-    drag.velocity /= submerged_volume;
-    const double speed = drag.velocity.norm();
-    if (drag_ > 0.0 && speed > 0.0) {
-      const double width = extent(surface, Vec2(-drag.velocity[1], drag.velocity[0]) / speed) + margin;
-      drag.force = -0.5 * density_ * drag_ * width * drag.share * speed * drag.velocity;
-    }
+  if (!(drag.submerged_volume > 0.0))
+    return drag;
+  drag.velocity /= drag.submerged_volume;
+  const double speed = drag.velocity.norm();
+  if (drag_ > 0.0 && speed > 0.0) {
+    const double width = extent(surface, Vec2(-drag.velocity[1], drag.velocity[0]) / speed) + margin;
+    drag.force = -0.5 * density_ * drag_ * width * (drag.submerged_volume / volume) * speed * drag.velocity;
   }
-  const Vec2 per_volume = submerged_volume > 0.0 ? Vec2(drag.force / submerged_volume) : Vec2(Vec2::Zero());
+  return drag;
+}
+
+void Water::press(const Drag& drag, const mpm::Particles<2>& sheet, std::array<mpm::Column, 2>& forces) const
+{
+  const std::size_t n = sheet.size();
+  for (mpm::Column& column : forces)
+    column.assign(n, 0.0);
+  if (drag.force == Vec2::Zero())
+    return;
+  const Vec2 ahead = drag.velocity.normalized();
+  const auto side = [&](std::size_t i) {  // length times right normal of the segment after a node
+    const std::size_t j = i + 1 < n ? i + 1 : 0;
+    return Vec2(sheet.position[1][j] - sheet.position[1][i], sheet.position[0][i] - sheet.position[0][j]);
+  };
+  double twice_area = 0.0, width = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    twice_area += sheet.position[0][i] * side(i)[0] + sheet.position[1][i] * side(i)[1];
+  const double outwards = twice_area >= 0.0 ? 1.0 : -1.0;
+  const auto facing = [&](std::size_t i) { return std::max(0.0, outwards * side(i).dot(ahead)); };
+  for (std::size_t i = 0; i < n; ++i)
+    width += facing(i);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = 0.5 * (facing(i) + facing(i > 0 ? i - 1 : n - 1)) / width;
+    forces[0][i] = share * drag.force[0];
+    forces[1][i] = share * drag.force[1];
+  }
+}
+
+void Water::spread(const Drag& drag, double height, mpm::Particles<2>& particles) const
+{
+  const Vec2 per_volume = drag.force == Vec2::Zero() ? drag.force : Vec2(drag.force / drag.submerged_volume);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double part = submerged(particles.position[1][p], height) * particles.initial_volume[p];
     particles.force[0][p] = part * per_volume[0];
     particles.force[1][p] = part * per_volume[1];
   }
-  return drag;
 }
 
 }  // namespace geocontainer_mpm::scene

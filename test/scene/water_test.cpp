@@ -1,6 +1,7 @@
 /// Bodies in water: Archimedes, added mass, drag, and their books.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -260,15 +261,22 @@ RC_GTEST_PROP(Water, NeitherGivesEnergyNorMomentumToWhatGoesInOrOut, ())
     scale += energy;
     RC_ASSERT(energy - after >= -1e-12 * energy);
     for (std::size_t d = 0; d < 2; ++d) {
-      if (particles.mass[p] >= before.mass[p])
-        RC_ASSERT(std::abs(particles.mass[p] * particles.velocity[d][p] - before.mass[p] * before.velocity[d][p]) <=
-                  1e-12 * before.mass[p]);
-      else
-        RC_ASSERT(particles.velocity[d][p] == before.velocity[d][p]);
+      const bool taken_up = particles.mass[p] >= before.mass[p];
+      const double momentum =
+          taken_up ? before.mass[p] * before.velocity[d][p] : particles.mass[p] * before.velocity[d][p];
+      RC_ASSERT(std::abs(particles.mass[p] * particles.velocity[d][p] - momentum) <= 1e-12 * particles.mass[p]);
     }
   }
   RC_ASSERT(left >= 0.0);
   RC_ASSERT(std::abs(left - lost) <= 1e-12 * scale);
+}
+
+Vec2 sum_of(const std::array<mpm::Column, 2>& forces)
+{
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t p = 0; p < forces[0].size(); ++p)
+    sum += Vec2(forces[0][p], forces[1][p]);
+  return sum;
 }
 
 RC_GTEST_PROP(Water, DragActsAgainstTheMotionAndIsAllHandedOut, ())
@@ -276,12 +284,38 @@ RC_GTEST_PROP(Water, DragActsAgainstTheMotionAndIsAllHandedOut, ())
   const Water water = random_water();
   mpm::Particles<2> particles = random_particles(water, 1500.0, 0.3);
   const Water::Drag drag = water.resist(particles, 0.3, 0.3, particles);
-  RC_ASSERT(drag.share >= 0.0 && drag.share <= 1.0);
   RC_ASSERT(drag.force.dot(drag.velocity) <= 0.0);
-  Vec2 sum = Vec2::Zero();
-  for (std::size_t p = 0; p < particles.size(); ++p)
-    sum += Vec2(particles.force[0][p], particles.force[1][p]);
-  RC_ASSERT((sum - drag.force).norm() <= 1e-12 * (1.0 + drag.force.norm()));
+  water.spread(drag, 0.3, particles);
+  RC_ASSERT((sum_of(particles.force) - drag.force).norm() <= 1e-12 * drag.force.norm());
+}
+
+TEST(Drag, PressesOnTheSideOfASheetThatFacesTheFlow)
+{
+  // A circle walked either way: all on the lower half, as the cosine of what faces downwards.
+  WaterDescription description;
+  description.density_kg_per_m3 = 1000.0;
+  const Water water(description, 0.0, 9.81);
+  Water::Drag drag;
+  drag.velocity = { 0.0, -2.0 };
+  drag.force = { 0.0, 600.0 };
+  for (const double sense : { 1.0, -1.0 }) {
+    mpm::Particles<2> sheet;
+    sheet.resize(36);
+    for (std::size_t i = 0; i < 36; ++i) {
+      sheet.position[0][i] = 5.0 + std::cos(sense * static_cast<double>(i) * 10.0 * degrees);
+      sheet.position[1][i] = 3.0 + std::sin(sense * static_cast<double>(i) * 10.0 * degrees);
+    }
+    std::array<mpm::Column, 2> forces;
+    water.press(drag, sheet, forces);
+    EXPECT_NEAR((sum_of(forces) - drag.force).norm(), 0.0, 1e-10);
+    for (std::size_t i = 0; i < 36; ++i) {
+      EXPECT_EQ(forces[0][i], 0.0);
+      const double down = 3.0 - sheet.position[1][i];
+      if (std::abs(down) > 0.1) {  // not the two ends of the lower half
+        EXPECT_NEAR(forces[1][i], std::max(0.0, down) * std::sin(10.0 * degrees) * 600.0 / 2.0, 1e-9);
+      }
+    }
+  }
 }
 
 /// The key that is refused.

@@ -2,6 +2,7 @@
 /// The mechanical model of a scene: bodies, sheets and boundary bodies on the grids of their velocity fields, and the
 /// MPM step that moves them. Knows nothing of logs, outputs or outcomes; see simulation.h for those.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,9 +78,10 @@ struct BoundaryTotal {
 
 /// What the water has done since the start, per unit width.
 struct WaterState {
-  Vec2 drag = Vec2::Zero();          ///< of the present step, N/m
-  Vec2 drag_impulse = Vec2::Zero();  ///< N s / m
-  double fastest_fall = 0.0;         ///< downward mean velocity of the submerged part of a body, m/s
+  Vec2 drag = Vec2::Zero();                           ///< of the present step, N/m
+  Vec2 drag_impulse = Vec2::Zero();                   ///< N s / m
+  std::vector<std::array<mpm::Column, 2>> on_sheets;  ///< what of it sheets take, by node; empty: none, N/m
+  double fastest_fall = 0.0;                          ///< downward mean velocity of the submerged part of a body, m/s
 };
 
 /// Energies that changed hands since the ledger was opened, per unit width, J/m, and what momentum did.
@@ -232,7 +234,8 @@ private:
   // model_water.cpp: buoyancy, drag and added mass
   void weigh();
   void load_water();
-  const mpm::Particles<2>& surface_of(std::size_t body) const;
+  std::size_t sheet_around(std::size_t body) const;
+  double sheet_drag_power() const;
   double drag_power() const;
   // model_survey.cpp: is all well, and how long may the next step be
   void survey();

@@ -1,7 +1,7 @@
 #pragma once
 /// Still water around bodies: what it takes from their weight, adds to their inertia, and how it resists.
 
-#include <vector>
+#include <array>
 
 #include "geocontainer_mpm/mpm/particles.h"
 #include "geocontainer_mpm/scene/description.h"
@@ -44,15 +44,20 @@ public:
   void place(double soil_density, double height, mpm::Particles<2>& particles) const;
 
   struct Drag {
-    double share = 0.0;            ///< of the body's volume under water
-    Vec2 velocity = Vec2::Zero();  ///< mean of that part, m/s
-    Vec2 force = Vec2::Zero();     ///< N/m
+    double submerged_volume = 0.0;  ///< m^2
+    Vec2 velocity = Vec2::Zero();   ///< mean of that part, m/s
+    Vec2 force = Vec2::Zero();      ///< N/m
   };
   /// Resistance to the body's motion as a whole, F = rho_w / 2 Cd b v^2 times the share under water, against the mean
   /// velocity of that share. b is the extent of `surface` across it, `margin` (m) more where the surface stands that
-  /// far out. Spread over the submerged volume as the forces of the particles: how it is spread over the surface,
-  /// pressure in front and suction behind, Cd does not say.
-  Drag resist(const mpm::Particles<2>& surface, double margin, double height, mpm::Particles<2>& particles) const;
+  /// far out.
+  Drag resist(const mpm::Particles<2>& surface, double margin, double height, const mpm::Particles<2>& particles) const;
+  /// Hands drag to the nodes of the closed sheet around the body: against the motion, evenly over the width of the side
+  /// that faces the flow. It is there that the water presses, and holds the fill by the sheet. (The pressure behind is
+  /// lower than outside but nearly uniform; a slack sheet takes none of it.)
+  void press(const Drag& drag, const mpm::Particles<2>& sheet, std::array<mpm::Column, 2>& forces) const;
+  /// Hands drag to the particles of a bare body, whose surface is not known, by their submerged volume.
+  void spread(const Drag& drag, double height, mpm::Particles<2>& particles) const;
 
 private:
   double density_, level_, gravity_, drag_, added_;
