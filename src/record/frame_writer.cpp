@@ -242,6 +242,7 @@ void write_energy(hid_t frame_group, const scene::EnergyFrame& energy)
   write_number(group, "dissipated_contact_j_per_m", energy.dissipated_contact);
   write_number(group, "dissipated_transfer_j_per_m", energy.dissipated_transfer);
   write_number(group, "dissipated_rupture_j_per_m", energy.dissipated_rupture);
+  write_number(group, "dissipated_water_j_per_m", energy.dissipated_water);
   write_number(group, "work_in_j_per_m", energy.work_in);
   write_number(group, "relative_balance_error", energy.relative_balance_error);
 }
@@ -315,6 +316,8 @@ Handle write_unlinked_frame(hid_t file, const scene::Frame& frame)
   write_count(group, "stamp_ns", frame.stamp_ns);
   write_count(group, "step", static_cast<std::int64_t>(frame.step));
   write_number(group, "dt_s", frame.dt_s);
+  if (frame.water_level_m)
+    write_number(group, "water_level_m", *frame.water_level_m);
   write_number(group, "port_rad", frame.opening.port_rad);
   write_number(group, "starboard_rad", frame.opening.starboard_rad);
   write_array(group, "time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &frame.time_s, "s", true);

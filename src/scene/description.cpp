@@ -1,6 +1,8 @@
 #include "geocontainer_mpm/scene/description.h"
 
+#include <algorithm>
 #include <cctype>
+#include <limits>
 #include <set>
 
 #include "description_grammar.h"
@@ -70,6 +72,16 @@ Vec2 SceneDescription::gravity_at(double time_s) const
     return gravity_m_per_s2;
   const std::array<double, 2> value = value_at(gravity_table, time_s);
   return { value[0], value[1] };
+}
+
+double SceneDescription::water_level_m() const
+{
+  if (!water->draught_m)
+    return water->level_m.value();
+  double keel = std::numeric_limits<double>::infinity();
+  for (const Vec2& corner : hull->port_section_m)
+    keel = std::min(keel, corner[1]);
+  return keel + *water->draught_m;
 }
 
 std::vector<std::string> SceneDescription::velocity_fields() const

@@ -46,6 +46,9 @@ void describe(V& v, SceneDescription& s)
           "summary and record" },
         s.probes);
   v.section({ "outcome", optional, "", "how the outcome is judged" }, s.outcome);
+  v.section({ "water", optional, "",
+              "still water around the bodies: buoyancy, drag and added mass. Needs constant gravity along -z" },
+            s.water);
 }
 
 /// Collects the names of one struct's keys.

@@ -46,6 +46,25 @@ void describe(V& v, ContactDescription& c)
 }
 
 template <class V>
+void describe(V& v, WaterDescription& w)
+{
+  v.value({ "density_kg_per_m3", required, "kg/m3", "1025 at sea, 1000 fresh" }, w.density_kg_per_m3, positive());
+  v.value(
+      { "draught_m", optional, "m",
+        "how far the surface is above the lowest point of the closed hull; says where it is in a scene with `hull`" },
+      w.draught_m, positive());
+  v.value({ "level_m", optional, "m", "z of the surface; says where it is in a scene without `hull`" }, w.level_m);
+  v.value({ "drag_coefficient", required, "",
+            "Cd: drag of a body is density / 2 Cd width speed^2 per metre, the width across its motion. About 1; 0 for "
+            "none" },
+          w.drag_coefficient, non_negative());
+  v.value({ "added_mass_coefficient", required, "",
+            "Ca: water that moves with a body, over the water that the body displaces. Circle 1, ellipse that is wide "
+            "across its motion: width over height; 0 for none" },
+          w.added_mass_coefficient, non_negative());
+}
+
+template <class V>
 void describe(V& v, PointProbe& p)
 {
   v.value({ "body", required, "", "a name in `bodies`" }, p.body, at_least(1));

@@ -142,6 +142,7 @@ void check_rules(const SceneDescription& scene)
   check_loads(scene);
   check_contacts(scene);
   check_probes(scene);
+  check_water(scene);
 }
 
 }  // namespace geocontainer_mpm::scene

@@ -23,6 +23,7 @@ void check_boundaries(const SceneDescription& scene);
 void check_loads(const SceneDescription& scene);
 void check_contacts(const SceneDescription& scene);
 void check_probes(const SceneDescription& scene);
+void check_water(const SceneDescription& scene);
 
 // What several topics need.
 inline constexpr double relative_tolerance = 1e-9;

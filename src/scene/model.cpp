@@ -78,9 +78,11 @@ void Model::transfer_to_grid(double time_s)
   add_tractions(time_s);
   assemble_mass();
   load_power_before_ = load_power(time_s);
+  drag_power_before_ = drag_power();
   if (books_transferred_work())
-    power_before_ = load_power_before_ + (gravity_table_.empty() ? gravity_power(now_.gravity) : 0.0) - stress_power() -
-                    damping_power() - tension_power();
+    power_before_ = load_power_before_ + drag_power_before_ + slowed_power_ +
+                    (gravity_table_.empty() ? gravity_power(now_.gravity) : 0.0) - stress_power() - damping_power() -
+                    tension_power();
   clock.mark(stages_.p2g_s);
   bound_time_step();
   clock.mark(stages_.bound_s);
@@ -121,6 +123,10 @@ StepStatus Model::step(const StepInput& input)
   ++now_.steps_since_bound;
   // Loads act over the kick on the mean of the velocities before and after it.
   now_.ledger.work_in += 0.5 * kick * (load_power_before_ + load_power(input.time_s));
+  if (water_) {
+    now_.ledger.water -= 0.5 * kick * (drag_power_before_ + drag_power());
+    now_.water.drag_impulse += kick * now_.water.drag;
+  }
   now_.ledger.material_damping += 0.5 * kick * (damping_before + damping_power());
   survey();
   now_.travel_since_sort += now_.fastest * input.dt_s;

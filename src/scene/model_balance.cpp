@@ -25,6 +25,7 @@ double column_sum(const mpm::Column& column)
 void Model::open_ledger()
 {
   now_.ledger = Ledger{};
+  now_.water = WaterState{};
   now_.ledger.plastic_at_start = plastic_work();
   now_.ledger.rupture_at_start = rupture_energy();
   now_.ledger.elastic_at_start = elastic_energy();
@@ -43,24 +44,29 @@ Vec2 Model::centroid() const
 {
   Vec2 moment = Vec2::Zero();
   double mass = 0.0;
-  const auto add = [&](const mpm::Particles<2>& particles) {
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      moment += particles.mass[p] * Vec2(particles.position[0][p], particles.position[1][p]);
-    mass += column_sum(particles.mass);
-  };
   for (const Body& body : now_.bodies)
-    add(body.particles);
+    for (std::size_t p = 0; p < body.particles.size(); ++p)
+      moment += body.own_mass(p) * body.position(p);
+  mass = soil_mass();
   if (now_.bodies.empty())
-    for (const ModelSheet& sheet : now_.sheets)
-      add(sheet.sheet.nodes());
+    for (const ModelSheet& sheet : now_.sheets) {
+      const mpm::Particles<2>& nodes = sheet.sheet.nodes();
+      for (std::size_t p = 0; p < nodes.size(); ++p)
+        moment += nodes.mass[p] * Vec2(nodes.position[0][p], nodes.position[1][p]);
+      mass += column_sum(nodes.mass);
+    }
   return moment / mass;
 }
 
 double Model::soil_mass() const
 {
   double mass = 0.0;
-  for (const Body& body : now_.bodies)
-    mass += column_sum(body.particles.mass);
+  for (const Body& body : now_.bodies) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < body.particles.size(); ++p)
+      sum += body.own_mass(p);
+    mass += sum;
+  }
   return mass;
 }
 
@@ -92,15 +98,18 @@ double Model::elastic_energy() const
 double Model::potential_energy() const
 {
   double energy = 0.0;
-  const auto add = [&](const mpm::Particles<2>& particles) {
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      energy -= particles.weight_mass[p] *
-                (constant_gravity_[0] * particles.position[0][p] + constant_gravity_[1] * particles.position[1][p]);
-  };
-  for (const Body& body : now_.bodies)
-    add(body.particles);
-  for (const ModelSheet& sheet : now_.sheets)
-    add(sheet.sheet.nodes());
+  for (const Body& body : now_.bodies) {
+    for (std::size_t p = 0; p < body.particles.size(); ++p)
+      energy -= body.own_mass(p) * constant_gravity_.dot(body.position(p));
+    if (water_)
+      energy += water_->potential(body.particles, body.particle_height);
+  }
+  for (const ModelSheet& sheet : now_.sheets) {
+    const mpm::Particles<2>& nodes = sheet.sheet.nodes();
+    for (std::size_t p = 0; p < nodes.size(); ++p)
+      energy -= nodes.weight_mass[p] *
+                (constant_gravity_[0] * nodes.position[0][p] + constant_gravity_[1] * nodes.position[1][p]);
+  }
   return energy;
 }
 
@@ -174,7 +183,7 @@ double Model::tension_power() const
   double power = 0.0;
   for (const ModelSheet& sheet : now_.sheets)
     power += sheet.sheet.tension_power();
-  return power;
+  return power + sheet_drag_power();  // which the sheet does not tell from its tension
 }
 
 /// Velocities live at mid-steps, positions and stresses half a step later or, what the next step has yet to make of the
@@ -200,8 +209,9 @@ EnergyFrame Model::energy() const
   e.dissipated_contact = now_.ledger.contact + now_.ledger.faces;
   e.dissipated_transfer = now_.ledger.transfer;
   e.dissipated_rupture = rupture_energy() - now_.ledger.rupture_at_start;
-  e.dissipated = e.dissipated_plastic + e.dissipated_contact + e.dissipated_transfer + now_.ledger.damped +
-                 now_.ledger.material_damping + e.dissipated_rupture;
+  e.dissipated_water = now_.ledger.water;
+  e.dissipated = e.dissipated_plastic + e.dissipated_contact + e.dissipated_transfer + e.dissipated_rupture +
+                 e.dissipated_water + now_.ledger.damped + now_.ledger.material_damping;
   e.work_in = now_.ledger.work_in;
   // The balance is struck where the velocities live, at mid-step.
   const double kinetic = e.kinetic - now_.ledger.kinetic_at_start;

@@ -27,11 +27,13 @@ std::shared_ptr<mpm::ThreadTeam> make_team(int threads)
 
 /// Vertical stress from the weight of what lies above, horizontal stress by K0 (both horizontal directions).
 void set_k0_stress(const BodyDescription& description, double density, const std::vector<Vec2>& shape, double gravity_z,
-                   mpm::Particles<2>& particles)
+                   const std::optional<Water>& water, mpm::Particles<2>& particles)
 {
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double depth = std::max(0.0, top_at(shape, particles.position[0][p]) - particles.position[1][p]);
-    const double vertical = density * gravity_z * depth;  // gravity_z < 0: compression
+    const double top = top_at(shape, particles.position[0][p]), z = particles.position[1][p];
+    const double depth = std::max(0.0, top - z);
+    // gravity_z < 0: compression
+    const double vertical = water ? gravity_z * water->overburden(density, z, top) : density * gravity_z * depth;
     particles.stress[0][p] = description.k0 * vertical;
     particles.stress[1][p] = vertical;
     particles.stress[3][p] = description.k0 * vertical;
@@ -39,14 +41,17 @@ void set_k0_stress(const BodyDescription& description, double density, const std
 }
 
 /// A weakly compressible fluid at rest, d p / d depth = rho g with rho = rho0 (1 + p / K): more mass in the same
-/// volume, so that the law, which knows the volume at zero pressure, finds the pressure.
+/// volume, so that the law, which knows the volume at zero pressure, finds the pressure: under water that beyond the
+/// water's own.
 void set_hydrostatic(const material::Parameters& material, const std::vector<Vec2>& shape, double gravity_z,
-                     mpm::Particles<2>& particles)
+                     const std::optional<Water>& water, mpm::Particles<2>& particles)
 {
   const double rho = material.density_kg_per_m3, bulk = material.bulk_modulus_pa;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double depth = std::max(0.0, top_at(shape, particles.position[0][p]) - particles.position[1][p]);
-    const double compression = std::exp(-rho * gravity_z * depth / bulk);  // rho / rho0
+    const double top = top_at(shape, particles.position[0][p]), z = particles.position[1][p];
+    const double depth = std::max(0.0, top - z);
+    const double pressure = water ? -gravity_z * water->overburden(rho, z, top) : -rho * gravity_z * depth;
+    const double compression = std::exp(pressure / bulk);  // rho / rho0
     particles.initial_volume[p] = compression * particles.volume[p];
     particles.mass[p] = particles.weight_mass[p] = rho * particles.initial_volume[p];
   }
@@ -85,6 +90,15 @@ void place(const Sampling& sampling, double density, mpm::Particles<2>& particle
     particles.volume[p] = particles.initial_volume[p] = sampling.volumes[p];
     particles.mass[p] = particles.weight_mass[p] = density * sampling.volumes[p];
   }
+}
+
+/// Side of a square of the particles' mean volume, m.
+double mean_width(const mpm::Particles<2>& particles)
+{
+  double volume = 0.0;
+  for (const double v : particles.initial_volume)
+    volume += v;
+  return std::sqrt(volume / static_cast<double>(particles.size()));
 }
 
 void start_on_solution(const Manufactured& solution, mpm::Particles<2>& particles)
@@ -130,21 +144,14 @@ Model::Model(const SceneDescription& scene, int threads)
     , lower_(scene.grid.lower_m)
     , upper_(scene.grid.upper_m)
 {
+  if (scene.water)
+    water_.emplace(*scene.water, scene.water_level_m(), -scene.gravity_m_per_s2[1]);
   build_fields(scene);
   build_bodies(scene);
   build_sheets(scene);
   build_boundaries(scene);
   build_loads(scene);
-  const auto weigh = [this](const mpm::Particles<2>& particles) {
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      inertia_ += particles.mass[p];
-      weight_mass_ += particles.weight_mass[p];
-    }
-  };
-  for (const Body& body : now_.bodies)
-    weigh(body.particles);
-  for (const ModelSheet& sheet : now_.sheets)
-    weigh(sheet.sheet.nodes());
+  weigh();
   survey();
 }
 
@@ -188,7 +195,8 @@ void Model::build_bodies(const SceneDescription& scene)
     const material::DampingModuli damping = material::damping_moduli(material);
     body.damping = { damping.lambda, damping.shear };
     mpm::Particles<2>& particles = body.particles;
-    place(sampling, material.density_kg_per_m3, particles);
+    body.density = material.density_kg_per_m3;
+    place(sampling, body.density, particles);
     if (body.law->needs_deformation())
       particles.use_deformation();
     body.row = particles.id;
@@ -200,9 +208,13 @@ void Model::build_bodies(const SceneDescription& scene)
       start_on_solution(*body.manufactured, particles);
     }
     if (description.initial_stress == InitialStress::hydrostatic)
-      set_hydrostatic(material, shape, scene.gravity_at(0.0)[1], particles);
+      set_hydrostatic(material, shape, scene.gravity_at(0.0)[1], water_, particles);
     else if (description.initial_stress != InitialStress::none)
-      set_k0_stress(description, material.density_kg_per_m3, shape, scene.gravity_at(0.0)[1], particles);
+      set_k0_stress(description, body.density, shape, scene.gravity_at(0.0)[1], water_, particles);
+    if (water_) {
+      body.particle_height = mean_width(particles);
+      water_->place(body.density, body.particle_height, particles);
+    }
     body.law->initialise(particles.batch(), 0, particles.size());
     now_.bodies.push_back(std::move(body));
   }

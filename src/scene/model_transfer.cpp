@@ -35,7 +35,7 @@ geotextile::SheetLoad load_at(const GeotextileDescription& sheet, double time_s)
 
 }  // namespace
 
-/// Body forces of manufactured solutions and loads of sheets, as forces of their particles.
+/// Body forces of manufactured solutions, water, and loads of sheets, as forces of their particles.
 void Model::load_particles(double time_s)
 {
   load_sum_ = Vec2::Zero();
@@ -60,14 +60,16 @@ void Model::load_particles(double time_s)
       load_sum_ += Vec2(sheet.nodes().force[0][i], sheet.nodes().force[1][i]);
   }
   now_.skipped.membrane_passes += taut ? 0 : 1;
+  load_water();
 }
 
 /// All particles' share of the grids.
 void Model::scatter(Part part)
 {
   for (const Body& body : now_.bodies)
-    mpm::body_to_grid(method_, body.particles, body.strips, { part, body.manufactured != nullptr, body.damping },
-                      now_.gravity, fields_[body.field].grid, *team_);
+    mpm::body_to_grid(method_, body.particles, body.strips,
+                      { part, body.manufactured || (water_ && !body.enclosed), body.damping }, now_.gravity,
+                      fields_[body.field].grid, *team_);
   for (const ModelSheet& sheet : now_.sheets)
     mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid,
                        sheet.sheet.strains_with_grid());

@@ -208,7 +208,7 @@ void Probes::sample_body(Target& target, const Model& model, Row& row) const
   std::array<double, 4> stress{};
   Extent extent;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double m = particles.mass[p];
+    const double m = body.own_mass(p);
     mass += m;
     moment += m * body.position(p);
     start_moment += m * (*body.start)[particles.id[p]];
@@ -226,8 +226,8 @@ void Probes::sample_body(Target& target, const Model& model, Row& row) const
   double along = 0.0, across = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vec2 from = (*body.start)[particles.id[p]] - start_moment / mass, to = body.position(p) - moment / mass;
-    along += particles.mass[p] * from.dot(to);
-    across += particles.mass[p] * cross(from, to);
+    along += body.own_mass(p) * from.dot(to);
+    across += body.own_mass(p) * cross(from, to);
   }
   target.turned_rad += std::remainder(std::atan2(across, along) - target.turned_rad, 2.0 * pi);
 

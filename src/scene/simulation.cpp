@@ -110,6 +110,11 @@ EnergyFrame Simulation::energy() const
   return state_->model.energy();
 }
 
+std::optional<WaterFrame> Simulation::water() const
+{
+  return state_->model.water();
+}
+
 RunCounters Simulation::counters() const
 {
   const State& s = *state_;
@@ -157,6 +162,8 @@ Frame Simulation::frame() const
   frame.energy = energy();
   frame.status = status();
   frame.probes = s.probes.of_frame();
+  if (s.scene.water)
+    frame.water_level_m = s.scene.water_level_m();
   fill_frame(s.model, s.scene, s.progress.mean_force, frame);
   const std::vector<contact::RigidPose> pose = s.motion.poses(frame.time_s, frame.opening);
   for (std::size_t b = 0; b < frame.boundary.size(); ++b) {

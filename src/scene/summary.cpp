@@ -45,10 +45,25 @@ Json energy(const EnergyFrame& frame)
            { "dissipated_contact", frame.dissipated_contact },
            { "dissipated_transfer", frame.dissipated_transfer },
            { "dissipated_rupture", frame.dissipated_rupture },
+           { "dissipated_water", frame.dissipated_water },
            { "work_in", frame.work_in },
            { "unbalanced", frame.unbalanced },
            { "relative_balance_error", frame.relative_balance_error },
            { "unit", "J/m" } };
+}
+
+/// Null in a scene without water.
+Json water(const std::optional<WaterFrame>& frame)
+{
+  if (!frame)
+    return {};
+  return { { "level_m", frame->level_m },
+           { "submerged_share", frame->submerged_share },
+           { "buoyancy_n_per_m", frame->buoyancy_n_per_m },
+           { "submerged_weight_n_per_m", frame->submerged_weight_n_per_m },
+           { "fastest_fall_m_per_s", frame->fastest_fall_m_per_s },
+           { "drag_impulse_n_s_per_m", pair(frame->drag_impulse_n_s_per_m) },
+           { "dissipated_j_per_m", frame->dissipated_j_per_m } };
 }
 
 Json skipped(const SkippedCounts& counts)
@@ -119,6 +134,7 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   summary["soil_volume_change"] =
       status.soil_volume_initial_m2 > 0.0 ? Json(status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0) : Json();
   summary["energy"] = energy(simulation.energy());
+  summary["water"] = water(simulation.water());
   summary["momentum_error"] = counters.momentum_error;
   summary["particles"] = counters.particles;
   summary["steps"] = counters.steps;

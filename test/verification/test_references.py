@@ -11,7 +11,7 @@ import numpy as np  # noqa: E402
 
 import cases  # noqa: E402
 from cases import (channel_flow, compaction, fluid_tube, hanging_cable, oedometer, self_weight_column,  # noqa: E402
-                   two_discs, vibrating_bar)
+                   terminal_velocity, two_discs, vibrating_bar)
 from suite.run import scene_path  # noqa: E402
 from suite.series import Convergence, frequency, onset, ramp_integral  # noqa: E402
 
@@ -49,6 +49,13 @@ def closed_forms():
     near(channel_flow.newtonian(0.03, 0.0), 0.0, 1e-6, "channel at the start")
     # The catenary through its ends has the length that was asked for.
     near(2 * hanging_cable.A * math.sinh(1 / hanging_cable.A), hanging_cable.LENGTH, 1e-12, "catenary")
+    # Fall through water against its equation of motion, by Euler's method.
+    terminal, tau = terminal_velocity.closed_form("disc, Ca = 1")
+    start = terminal_velocity.GRAVITY * 500 / 2500
+    velocity, step = 0.0, 1e-4
+    for _ in range(int(round(tau / step))):
+        velocity += step * start * (1 - (velocity / terminal) ** 2)
+    near(velocity, terminal * math.tanh(1), 1e-4 * terminal, "fall after tau")
     # Stress over the present volume integrates to the moment of the weights; solved stretch satisfies the law.
     assert -0.5 * compaction.WEIGHT * compaction.LENGTH < compaction.mean_stress() < 0.0
 

@@ -271,6 +271,17 @@ struct ProbeDescription {
   std::optional<std::string> manufactured;  ///< a body's distance from its manufactured solution
 };
 
+/// Still water of one density around the bodies; docs/concepts.md has what it does to them. Needs constant gravity
+/// along -z.
+struct WaterDescription {
+  double density_kg_per_m3 = 0.0;  ///< 1025 at sea, 1000 fresh, > 0
+  // Exactly one says where the surface is: the draught in a scene with a hull, the level in one without.
+  std::optional<double> draught_m;  ///< from the lowest point of the closed hull's section up to the surface, m, > 0
+  std::optional<double> level_m;    ///< z of the surface, m
+  double drag_coefficient = 0.0;    ///< Cd, over the body's width across its motion, >= 0
+  double added_mass_coefficient = 0.0;  ///< Ca: water that moves with a body, over the water it displaces, >= 0
+};
+
 /// When the container counts as released, hung up, at rest.
 struct OutcomeDescription {
   double hung_up_after_s = 5.0;  ///< standing still this long in the open slot means hung up, s, > 0
@@ -295,9 +306,13 @@ struct SceneDescription {
   std::map<std::string, ContactDescription> contacts;  ///< between velocity fields
   std::map<std::string, ProbeDescription> probes;
   OutcomeDescription outcome;
+  std::optional<WaterDescription> water;
 
   /// Gravity at an instant, from whichever of the two is given.
   Vec2 gravity_at(double time_s) const;
+
+  /// z of the water's surface, from whichever of the two is given, m; of a scene with water.
+  double water_level_m() const;
 
   /// Names of the velocity fields that bodies and free sheets move in, in order.
   std::vector<std::string> velocity_fields() const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,10 +64,22 @@ struct EnergyFrame {
   double dissipated_plastic = 0.0;
   double dissipated_contact = 0.0;
   double dissipated_transfer = 0.0;     ///< lost by the particle-grid transfer: numerical
+  double dissipated_water = 0.0;        ///< given to the water: drag, and the motion of what is taken up or left behind
   double work_in = 0.0;                 ///< done on the material by moving boundaries, since the start
   double unbalanced = 0.0;              ///< change + dissipated - work in: energy from nowhere, since the start
   double dissipated_rupture = 0.0;      ///< what was stored in pieces of sheets that broke
   double relative_balance_error = 0.0;  ///< |change + dissipated - work in| over all energy that changed hands
+};
+
+/// What the water does to the bodies, per unit width.
+struct WaterFrame {
+  double level_m = 0.0;                   ///< z of the surface
+  double submerged_share = 0.0;           ///< of the bodies' volume, now
+  double buoyancy_n_per_m = 0.0;          ///< now
+  double submerged_weight_n_per_m = 0.0;  ///< of bodies and sheets less buoyancy, now
+  double fastest_fall_m_per_s = 0.0;      ///< largest downward mean velocity of the submerged part of a body so far
+  Vec2 drag_impulse_n_s_per_m = Vec2::Zero();  ///< since the start
+  double dissipated_j_per_m = 0.0;             ///< since the start
 };
 
 struct StatusFrame {
@@ -114,6 +127,7 @@ struct Frame {
   EnergyFrame energy;
   StatusFrame status;
   std::vector<ProbeFrame> probes;
+  std::optional<double> water_level_m;  ///< z of the surface, in a scene with water
 };
 
 }  // namespace geocontainer_mpm::scene

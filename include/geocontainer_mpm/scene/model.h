@@ -2,7 +2,9 @@
 /// The mechanical model of a scene: bodies, sheets and boundary bodies on the grids of their velocity fields, and the
 /// MPM step that moves them. Knows nothing of logs, outputs or outcomes; see simulation.h for those.
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "geocontainer_mpm/scene/description.h"
 #include "geocontainer_mpm/scene/manufactured.h"
 #include "geocontainer_mpm/scene/simulation.h"
+#include "geocontainer_mpm/scene/water.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -35,7 +38,11 @@ struct Body {
   bool enclosed = false;  ///< a sheet is its surface
   std::shared_ptr<const Manufactured> manufactured;
   std::shared_ptr<const std::vector<Vec2>> start;  ///< positions at the start by id, m
+  double density = 0.0;                            ///< of the material, kg/m^3
+  double particle_height = 0.0;                    ///< over which a particle enters the water, m; without water 0
 
+  /// Without water that moves with it, kg/m.
+  double own_mass(std::size_t p) const { return density * particles.initial_volume[p]; }
   Vec2 position(std::size_t p) const { return { particles.position[0][p], particles.position[1][p] }; }
   Vec2 velocity(std::size_t p) const { return { particles.velocity[0][p], particles.velocity[1][p] }; }
   /// dv_i/dx_j of the last step, 1/s.
@@ -71,9 +78,18 @@ struct BoundaryTotal {
   double work = 0.0;            ///< J/m
 };
 
+/// What the water has done since the start, per unit width.
+struct WaterState {
+  Vec2 drag = Vec2::Zero();                           ///< of the present step, N/m
+  Vec2 drag_impulse = Vec2::Zero();                   ///< N s / m
+  std::vector<std::array<mpm::Column, 2>> on_sheets;  ///< what of it sheets take, by node; empty: none, N/m
+  double fastest_fall = 0.0;                          ///< downward mean velocity of the submerged part of a body, m/s
+};
+
 /// Energies that changed hands since the ledger was opened, per unit width, J/m, and what momentum did.
 struct Ledger {
   double contact = 0.0, transfer = 0.0, faces = 0.0, damped = 0.0, material_damping = 0.0, work_in = 0.0;
+  double water = 0.0;  ///< drag, and what water taken up or left behind keeps
   double plastic_at_start = 0.0, rupture_at_start = 0.0, kinetic_at_start = 0.0, elastic_at_start = 0.0,
          potential_at_start = 0.0;
   double momentum_error = 0.0, momentum_exchanged = 0.0;  ///< N s / m, summed over steps away from faces
@@ -100,6 +116,7 @@ struct ModelState {
   std::vector<Tracer> tracers;
   std::vector<contact::ContactSolver> contact;  ///< per field
   std::vector<BoundaryTotal> boundary_totals;
+  WaterState water;
   Ledger ledger;
   SkippedCounts skipped;
   StepStatus health;
@@ -147,9 +164,10 @@ public:
 
   double rms_velocity() const;     ///< by mass, of the last step, m/s
   Vec2 centroid() const;           ///< of the bodies (of the sheets where there are none), by mass, m
-  double soil_mass() const;        ///< kg/m
+  double soil_mass() const;        ///< without water that moves with it, kg/m
   double fundamental_frequency();  ///< rough lowest frequency of the bodies, rad/s: for settling
   EnergyFrame energy() const;
+  std::optional<WaterFrame> water() const;  ///< of a scene with water
   double momentum_error() const;
   std::uint64_t digest() const;
   /// Sentence on what is fastest: particle, body, place; for reports of a run that went wrong.
@@ -216,6 +234,12 @@ private:
   void gather_sheets(mpm::Gather what, double dt);
   void move_tracers(double dt);
   void update_stress(double dt);
+  // model_water.cpp: buoyancy, drag and added mass
+  void weigh();
+  void load_water();
+  std::size_t sheet_around(std::size_t body) const;
+  double sheet_drag_power() const;
+  double drag_power() const;
   // model_survey.cpp: is all well, and how long may the next step be
   void survey();
   bool bound_holds() const;
@@ -247,14 +271,17 @@ private:
   std::vector<FieldPair> pairs_;
   std::vector<contact::BoundaryBody> boundaries_;
   std::vector<std::size_t> traction_body_;  ///< per traction, the index of its body
+  std::optional<Water> water_;
   int hull_index_ = -1;
-  double weight_mass_ = 0.0;  ///< what gravity pulls in all, kg/m
+  double weight_mass_ = 0.0;  ///< what gravity pulls in all, less buoyancy, kg/m
   double inertia_ = 0.0;      ///< all mass, kg/m
 
   ModelState now_;
   bool on_grid_ = false;
   double stable_dt_ = 0.0;
   double load_power_before_ = 0.0;  ///< of loads on the velocity before the step, W/m
+  double drag_power_before_ = 0.0;  ///< of drag, W/m
+  double slowed_power_ = 0.0;       ///< of weight on the velocity that water taken up has taken, W/m
   double power_before_ = 0.0;       ///< of all forces on the motion before the transfer, W/m
   Vec2 load_sum_ = Vec2::Zero();    ///< of all loads but gravity, N/m
   StageTimes stages_;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "geocontainer_mpm/barge/opening_signal.h"
@@ -80,6 +81,7 @@ public:
   Frame frame() const;         ///< snapshot of the present state
   StatusFrame status() const;  ///< the cheap part of frame()
   EnergyFrame energy() const;
+  std::optional<WaterFrame> water() const;  ///< of a scene with water
   RunCounters counters() const;
   /// What the scene's probes have measured since the start.
   const std::vector<ProbeFrame>& probes() const;

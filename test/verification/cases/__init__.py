@@ -9,11 +9,11 @@ draw(results, path)      its picture, from the results of the full runs
 
 import importlib
 
-# In the order of docs/verification.md: soil and integration, contact, geotextile, flow.
+# In the order of docs/verification.md: soil and integration, contact, geotextile, flow, water.
 NAMES = ["oedometer", "self_weight_column", "compaction", "vibrating_bar", "axis_aligned", "vortex", "two_discs",
          "block_on_incline", "disc_on_incline", "rotating_plate", "two_walls", "capstan", "pressurised_cylinder",
          "stretched_string", "hanging_cable", "slack_ring", "fluid_tube", "fluid_column", "channel_flow", "bui_collapse",
-         "granular_columns"]
+         "granular_columns", "terminal_velocity"]
 
 
 def load(name):
