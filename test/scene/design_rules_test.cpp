@@ -118,8 +118,9 @@ TEST(DesignRules, StandInTheSummaryBesideWhatIsComputed)
       EXPECT_FALSE(rules.at(name).at(key).get<std::string>().empty()) << name << " " << key;
     EXPECT_FALSE(rules.at(name).at("inputs").empty()) << name;
   }
-  // The hull stands open at once: 2 (4.3 sin 0.365 + lip's corner), 3.0 m as the scene says.
-  EXPECT_NEAR(rules.at("circumference_needed").at("inputs").at("b0").at("value").get<double>(), 3.0, 0.1);
+  // The hull stands open: twice the way of the lips' upper corners, 3.9 m below the hinge.
+  EXPECT_NEAR(rules.at("circumference_needed").at("inputs").at("b0").at("value").get<double>(),
+              2.0 * 3.9 * std::sin(0.365), 1e-9);
   EXPECT_EQ(rules.at("circumference_needed").at("beside").at("value"), 18.3);
   EXPECT_EQ(rules.at("tension_opening").at("inputs").at("rho_w").at("assumed"), true);
   EXPECT_TRUE(rules.at("terminal_velocity").at("beside").is_null());
