@@ -61,9 +61,10 @@ def write_page(path, sweep, rows, verdicts, pictures, origin):
             lines += [f"**{row['label']}: {row['status']}.** {row['why']}", ""]
         if row["flags"]:
             lines += [f"**{row['label']}: doubtful.** {row['flags']}", ""]
-    rules = markdown_table(rows, RULES, ["run"])
+    one_for_all = len({tuple(row[rule[1]] for rule in RULES) for row in rows}) == 1
+    rules = markdown_table([{**rows[0], "label": "all"}] if one_for_all else rows, RULES, ["run"])
     if rules:
-        lines += ["What hand rules say for the same data (sources in the summary of each run, docs/how-to.md):", "", *rules]
+        lines += ["What hand rules say for the same data ([sources](../how-to.md#compare-with-hand-rules)):", "", *rules]
     if verdicts:
         lines += ["| expected | met |", "|---|---|", *(f"| {text} | {'yes' if met else '**no**'} |" for text, met in verdicts), ""]
     for name, caption in pictures:

@@ -35,7 +35,8 @@ class Cache:
         os.makedirs(folder, exist_ok=True)
 
     def folder_of(self, study, row):
-        inputs = [self.version, "with record" if self.record else "without", fingerprint(study.scene), fingerprint(study.angles) if study.angles else "",
+        inputs = [self.version, "with record" if self.record else "without", fingerprint(study.scene),
+                  fingerprint(study.angles) if study.angles else "",
                   json.dumps({key: scene_value(value) for key, value in row.overrides.items()})]
         return os.path.join(self.folder, hashlib.sha256("\n".join(inputs).encode()).hexdigest()[:24])
 
