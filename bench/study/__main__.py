@@ -119,7 +119,7 @@ def main():
     signal.signal(signal.SIGTERM, interrupt)
     try:
         wanted, out = chosen(options)
-        out = os.path.join(options.directory, out)
+        out = os.path.abspath(os.path.join(options.directory, out))
         os.makedirs(out, exist_ok=True)
         runner = Runner(Cache(os.path.join(options.directory, options.cache), os.path.abspath(options.simulate),
                               record=not options.no_pictures))

@@ -12,7 +12,7 @@ TABLE = [("release [s]", "release_time_s", 1.0, 2), ("slot then [m]", "slot_m", 
          ("peak tension [kN/m]", "peak_tension_n_per_m", 1e-3, 1), ("until release [kN/m]", "peak_tension_in_hull_n_per_m", 1e-3, 1),
          ("residual tension [kN/m]", "residual_tension_n_per_m", 1e-3, 1), ("elongation [%]", "geotextile_elongation_max", 100.0, 1),
          ("of sheet [%]", "peak_sheet_utilisation", 100.0, 0), ("of seam [%]", "peak_utilisation", 100.0, 0),
-         ("width [m]", "container_width_m", 1.0, 2), ("height [m]", "container_height_m", 1.0, 2),
+         ("centroid y [m]", "container_centroid_y_m", 1.0, 3), ("width [m]", "container_width_m", 1.0, 2), ("height [m]", "container_height_m", 1.0, 2),
          ("energy error [%]", "energy_balance_error", 100.0, 2), ("volume change [%]", "soil_volume_change", 100.0, 2),
          ("CPU [s]", "user_cpu_s", 1.0, 0)]
 RULES = [("circumference needed [m]", "rule_circumference_needed_m", 1.0, 2), ("slot needed [m]", "rule_slot_needed_m", 1.0, 2),
@@ -55,6 +55,9 @@ def write_page(path, sweep, rows, verdicts, pictures, origin):
     if sweep.question:
         lines += [sweep.question, ""]
     lines += [f"Written by `script/study {sweep.name}` ({origin}). Every figure: [{sweep.name}.csv]({sweep.name}.csv).", ""]
+    if sweep.overrides:
+        changes = ", ".join(f"`{key}={shown(value)}`" for key, value in sweep.overrides.items())
+        lines += [f"Not as the sweep file has it: {changes} in every run.", ""]
     lines += markdown_table(rows, TABLE, ["run", "outcome"])
     for row in rows:
         if row["status"] != "completed":

@@ -39,6 +39,7 @@ class Sweep:
     pictured: list = field(default_factory=list)  # labels
     curves: list = field(default_factory=list)  # figures drawn against the first changed key
     learned: str = ""
+    overrides: dict = field(default_factory=dict)  # --set
 
     @property
     def columns(self):
@@ -109,7 +110,7 @@ class _Reader:
         rows = self.rows()
         sweep = Sweep(name, self.path, self.part("title", str, "text", name), self.scene, angles, rows,
                       question=self.part("question", str, "text", "").strip(),
-                      learned=self.part("learned", str, "text", "").strip())
+                      learned=self.part("learned", str, "text", "").strip(), overrides=self.overrides)
         self.pictures(sweep)
         sweep.expect = [self.expectation(sweep, i, item)
                         for i, item in enumerate(self.part("expect", list, "a list", []))]
