@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -63,6 +64,34 @@ std::string rejected(const Json& counts)
   return text.empty() ? "none" : text;
 }
 
+std::string line(const std::string& name, const std::string& value)
+{
+  return fmt::format("  {:<29}{}\n", name, value);
+}
+
+std::string in_unit(const Json& value, const std::string& unit)
+{
+  if (!value.is_number())
+    return "none";
+  return unit == "N/m" ? quantity(value, 1e-3, 2, "kN/m") : quantity(value, 1.0, 2, unit.c_str());
+}
+
+/// What hand rules say for a container, and what each is to be compared with.
+std::string hand_rules(const Json& container)
+{
+  std::string text = line("hand rules for", container.at("container").get<std::string>() + " (sources in the summary)");
+  for (const auto& [name, rule] : container.at("rules").items()) {
+    const std::string unit = rule.at("unit").get<std::string>();
+    std::string value = in_unit(rule.at("value"), unit);
+    if (const Json& beside = rule.at("beside"); beside.is_object())
+      value += fmt::format(" ({} {})", beside.at("what").get<std::string>(), in_unit(beside.at("value"), unit));
+    std::string label = "  " + name;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    text += line(label, value);
+  }
+  return text;
+}
+
 }  // namespace
 
 void check_output(const std::string& option, const std::string& path)
@@ -105,9 +134,7 @@ void write_summary(const std::string& path, const std::string& text)
 std::string table(const Json& s)
 {
   std::string text;
-  const auto row = [&](const char* name, const std::string& value) {
-    text += fmt::format("  {:<24}{}\n", name, value);
-  };
+  const auto row = [&](const char* name, const std::string& value) { text += line(name, value); };
   text += fmt::format("{}: {}\n", s.at("scene").get<std::string>(), s.at("outcome").get<std::string>());
   if (!s.value("completed", true))  // the node's summary is of a moment and does not say
     row("not completed", s.at("why").get<std::string>());
@@ -129,6 +156,10 @@ std::string table(const Json& s)
       quantity(s.at("container_width_m"), 1.0, 2, "m, ") + quantity(s.at("container_height_m"), 1.0, 2, "m"));
   row("soil volume change", quantity(s.at("soil_volume_change"), 100.0, 2, "%"));
   row("energy balance error", quantity(s.at("energy").at("relative_balance_error"), 100.0, 2, "%"));
+  for (const Json& flag : s.value("flags", Json::array()))
+    row("  doubtful", flag.get<std::string>());
+  for (const Json& container : s.value("design_rules", Json::array()))
+    text += hand_rules(container);
   row("momentum error", fmt::format("{:.2e}", s.at("momentum_error").get<double>()));
   row("particles, steps", fmt::format("{}, {}; {} retries", s.at("particles").get<std::uint64_t>(),
                                       s.at("steps").get<std::uint64_t>(), s.at("retries").get<std::uint64_t>()));

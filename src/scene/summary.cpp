@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "geocontainer_mpm/barge/split_hull.h"
+#include "geocontainer_mpm/scene/design_rules.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
 namespace geocontainer_mpm::scene {
@@ -93,6 +97,85 @@ Json probes(const std::vector<ProbeFrame>& series)
   return all;
 }
 
+/// Widest slot up to now and slot at the release, m, from the opening's history.
+struct Slot {
+  std::optional<double> widest_m, at_release_m;
+};
+
+Slot slot(const Simulation& simulation, const StatusFrame& status)
+{
+  Slot slot;
+  const SceneDescription& scene = simulation.scene();
+  const barge::OpeningSignal& opening = simulation.opening();
+  const double known_s = std::min(simulation.time_s(), opening.known_until_s());
+  if (!scene.hull || !(known_s >= 0.0))
+    return slot;
+  const barge::SplitHull hull(scene.hull->hinge_m, scene.hull->port_section_m, "hull");
+  constexpr int looks = 1000;  // hydraulics move the hull over many seconds
+  for (int i = 0; i <= looks; ++i) {
+    const double width_m = hull.slot_width_m(opening.angles(known_s * i / looks));
+    slot.widest_m = std::max(slot.widest_m.value_or(width_m), width_m);
+  }
+  if (status.release_time_s >= 0.0)
+    slot.at_release_m = hull.slot_width_m(opening.angles(status.release_time_s));
+  return slot;
+}
+
+Json number(const std::optional<double>& value)
+{
+  return value ? Json(*value) : Json();
+}
+
+/// What of this run, or of its scene, a rule's value is to be compared with.
+Json counterpart(const std::string& rule, const ContainerData& container, const Slot& slot, const StatusFrame& status)
+{
+  if (rule == "circumference_needed" || rule == "circumference_of_rectangle")
+    return { { "what", "circumference of the sheet" }, { "value", container.circumference_m } };
+  if (rule == "slot_needed")
+    return { { "what", slot.at_release_m ? "slot at release" : "widest slot, not released" },
+             { "value", number(slot.at_release_m ? slot.at_release_m : slot.widest_m) } };
+  if (rule == "tension_opening" || rule == "tension_hanging")
+    return { { "what", "peak tension" }, { "value", status.peak_tension_n_per_m } };
+  return {};
+}
+
+/// A list with one entry a container: what hand rules say, each with its source, and what stands beside it.
+Json design_view(const Simulation& simulation, const StatusFrame& status)
+{
+  const Slot slot_of_run = slot(simulation, status);
+  Json view = Json::array();
+  for (const ContainerData& container : container_data(simulation.scene(), slot_of_run.widest_m.value_or(0.0))) {
+    Json rules = Json::object();
+    for (const DesignRule& rule : design_rules(container)) {
+      Json inputs = Json::object();
+      for (const DesignRule::Input& input : rule.inputs)
+        inputs[input.name] = { { "value", input.value }, { "unit", input.unit }, { "assumed", input.assumed } };
+      rules[rule.name] = { { "value", number(rule.value) },
+                           { "unit", rule.unit },
+                           { "rule", rule.rule },
+                           { "source", rule.source },
+                           { "inputs", inputs },
+                           { "beside", counterpart(rule.name, container, slot_of_run, status) } };
+    }
+    view.push_back({ { "container", container.name }, { "rules", rules } });
+  }
+  return view;
+}
+
+/// Sentences on what should make a reader doubt the run.
+Json flags(const EnergyFrame& energy, const Json& volume_change)
+{
+  constexpr double limit = 0.03;
+  Json list = Json::array();
+  if (!(energy.relative_balance_error <= limit))
+    list.push_back(fmt::format("the energy balance is open by {:.1f} % of what changed hands: more than {:.0f} %",
+                               100.0 * energy.relative_balance_error, 100.0 * limit));
+  if (volume_change.is_number() && !(std::abs(volume_change.get<double>()) <= limit))
+    list.push_back(fmt::format("the soil's volume changed by {:+.1f} %: more than {:.0f} %, too much for sand",
+                               100.0 * volume_change.get<double>(), 100.0 * limit));
+  return list;
+}
+
 /// Keys of the sheet; null in a scene without one, and where and when of a peak that has not been.
 void add_geotextile(Json& summary, const SceneDescription& scene, const StatusFrame& status)
 {
@@ -135,6 +218,8 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
       status.soil_volume_initial_m2 > 0.0 ? Json(status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0) : Json();
   summary["energy"] = energy(simulation.energy());
   summary["water"] = water(simulation.water());
+  summary["flags"] = flags(simulation.energy(), summary["soil_volume_change"]);
+  summary["design_rules"] = design_view(simulation, status);
   summary["momentum_error"] = counters.momentum_error;
   summary["particles"] = counters.particles;
   summary["steps"] = counters.steps;
