@@ -8,9 +8,10 @@
 ///     m_i^e = m_i s_i^e / S_i,   s_i^e = x_e k_e b_i^e,   S_i = sum_e s_i^e
 ///
 /// with stiffness k_e = V (lambda + 2 G) / h^2 and b_i = h |grad w_i|_1 of a particle, k_e = J / l0 and b_i = |dw_i| of
-/// a segment (k_e and b_i of a membrane point: see add_fibre). Every x_e > 0 gives a bound. x_e = 1 first; then x_e is what the element's own frequency came out as,
-/// which is one step of power iteration towards the Perron vector of the matrix |B| M^-1 |B|^T (Collatz 1942): stiff
-/// places borrow mass from soft neighbours. A third round would gain 2 % more, at a third more cost.
+/// a segment (k_e and b_i of a membrane point: see add_fibre). Every x_e > 0 gives a bound. x_e = 1 first; then x_e is
+/// what the element's own frequency came out as, which is one step of power iteration towards the Perron vector of the
+/// matrix |B| M^-1 |B|^T (Collatz 1942): stiff places borrow mass from soft neighbours. A third round would gain 2 %
+/// more, at a third more cost.
 ///
 /// Where a method feels p M^-1 K (see stable_step), S_i / m_i becomes sum_j p_ij S_j / m_j. That is again rigorous:
 /// take the particles' velocities for the unknowns, hand their masses out, and use Jensen's inequality on the sums over
