@@ -109,7 +109,7 @@ void check_strength(const std::string& key, const GeotextileDescription& sheet, 
              fmt::format("must be more than the strain of pretension_n_per_m, {:.6g}", strain));
   }
   for (const auto& [name, seam] : sheet.seams) {
-    const std::string seam_key = key + ".seams." + name;
+    const std::string seam_key = fmt::format("{}.seams.{}", key, name);
     check_choice(seam_key, { { "at_m", seam.at_m.has_value() }, { "along", seam.along.has_value() } }, 1, 1);
     if (seam.at_m)
       check_inside(seam_key + ".at_m", { *seam.at_m, *seam.at_m }, grid);

@@ -110,22 +110,28 @@ void start_on_solution(const Manufactured& solution, mpm::Particles<2>& particle
   }
 }
 
+/// The segment whose middle is nearest to a place.
+std::size_t nearest_segment(const geotextile::Sheet& sheet, const Vec2& at)
+{
+  const auto distance = [&](std::size_t i) {
+    return (0.5 * (sheet.node(i) + sheet.node(sheet.end_of(i))) - at).norm();
+  };
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < sheet.segments(); ++i)
+    if (distance(i) < distance(nearest))
+      nearest = i;
+  return nearest;
+}
+
 /// The seams where they are in the sheet as it is laid.
 geotextile::Strength strength_of(const GeotextileDescription& description, const geotextile::Sheet& sheet)
 {
   std::vector<geotextile::Seam> seams;
   for (const auto& [name, seam] : description.seams) {
     const std::size_t n = sheet.segments();
-    std::size_t place = 0;
-    if (seam.along)
-      place = std::min(n - 1, static_cast<std::size_t>(*seam.along * static_cast<double>(n)));
-    const auto distance = [&](std::size_t i) {
-      return (0.5 * (sheet.node(i) + sheet.node(sheet.end_of(i))) - *seam.at_m).norm();
-    };
-    if (seam.at_m)
-      for (std::size_t i = 1; i < n; ++i)
-        if (distance(i) < distance(place))
-          place = i;
+    const std::size_t place = seam.along
+                                  ? std::min(n - 1, static_cast<std::size_t>(*seam.along * static_cast<double>(n)))
+                                  : nearest_segment(sheet, *seam.at_m);
     seams.push_back({ name, place, seam.efficiency.value_or(description.seam_efficiency) });
   }
   return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
