@@ -109,8 +109,9 @@ TEST(MembranePoints, StretchIsSecondOrderInTimeWhereTheSheetTurns)
       sheet.update_stress(0.5 / steps);
     }
     const double error = std::abs(1.0 + sheet.largest_strain() - std::sqrt(1.25));
-    if (last > 0.0)
+    if (last > 0.0) {
       EXPECT_NEAR(last / error, 4.0, 0.3) << steps;
+    }
     EXPECT_LT(error, 1e-3);
     last = error;
   }

@@ -270,7 +270,7 @@ double largest_square(const Sheet& sheet, const mpm::Grid<2>& grid)
   const double rest = sheet.nodes().mass[0] / 20.0;
   const auto add = [&](Eigen::Index at, double factor, const Vec2& point, const Vec2& direction, auto&& shape) {
     mpm::testing::for_each_stencil_node<2>(
-        grid, point, [&](std::size_t i, double w, const Vec2& gradient, const Vec2&) {
+        grid, point, [&](std::size_t i, double w, const Vec2&, const Vec2& gradient) {
           if (row[i] >= 0)
             for (Eigen::Index d = 0; d < 2; ++d)
               along(at, row[i] + d) +=

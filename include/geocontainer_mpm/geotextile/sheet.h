@@ -137,7 +137,7 @@ private:
   std::array<mpm::Column, 2> external_;  ///< of it all, what loads add to the forces, N/m
   // Of membrane points alone.
   mpm::Column stretch_;                 ///< length over unstretched length
-  std::array<mpm::Column, 2> tangent_;  ///< as of the last update_forces()
+  std::array<mpm::Column, 2> tangent_;  ///< unit, of the chord of the neighbours
   mpm::Column point_tension_;           ///< N/m
 };
 
