@@ -152,8 +152,8 @@ def draw(rows, path):
             axis.minorticks_off()
             axis.set_ylim(1e-5, 1.0)
         handles, labels = axes[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, fontsize=7, loc="outside lower center", ncols=4)
-        figure.savefig(path)
+        figure.legend(handles, labels, fontsize=7, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=4)
+        figure.savefig(path, bbox_inches="tight")
         plt.close(figure)
 
 

@@ -54,7 +54,7 @@ void set_gradient(Sheet& sheet, const Eigen::Matrix2d& l)
 
 TEST(MembranePoints, StartTautOrSlackAsTheyAreLaid)
 {
-  for (const double strain : { -0.05, 0.0, 0.02 }) {
+  for (const double strain : { -0.05, 0.02 }) {
     for (Sheet sheet : { ring(40, strain), straight(0.4, strain, 12) }) {
       EXPECT_EQ(sheet.update_forces(), strain > 0.0);
       double length = 0.0;
