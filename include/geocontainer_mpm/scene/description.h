@@ -125,6 +125,9 @@ struct BodyDescription {
   InitialStress initial_stress = InitialStress::none;
   double k0 = 0.5;                                      ///< horizontal over vertical stress for k0 and gravity, [0, 2]
   std::optional<ManufacturedDescription> manufactured;  ///< needs law neo_hookean and no gravity
+  /// Until then the body and the sheet around it stay where they are, touch nothing and take no part, s, >= 0. Then
+  /// they start with the initial velocity: how a second container is dropped on the first.
+  double held_until_s = 0.0;
 };
 
 /// Axis-parallel rectangle that selects.
@@ -178,6 +181,20 @@ struct InsidePressure {
   TimeTable<1> table;  ///< [t, factor]; empty: 1
 };
 
+/// Cloth laid in folds along part of a sheet's path. A fold is smaller than what the grid resolves: what is modelled is
+/// the length of cloth in it and where it lies, not its shape.
+struct Wrinkles {
+  Region region;             ///< the parts of the path within it hold the folds
+  int number = 1;            ///< of folds, at even distances, >= 1
+  double amplitude_m = 0.0;  ///< height of a fold, two straight sides from the path up and back, m, > 0
+};
+
+/// How a sheet and the body that it encloses are bound to each other.
+enum class SheetInterface {
+  bonded,     ///< one velocity field: neither slips nor parts
+  frictional  ///< a field each, unilateral Coulomb contact between them
+};
+
 struct GeotextileDescription {
   // Exactly one of these three says where it is laid.
   std::string encloses;  ///< the body around whose outline the closed sheet is laid
@@ -199,7 +216,10 @@ struct GeotextileDescription {
   double strength_n_per_m = 0.0;                      ///< tensile strength of the sheet (warp), > 0
   double seam_efficiency = 0.85;                      ///< strength of a seam over the sheet's, (0, 1]
   double segment_length_m = 0.0;                      ///< wanted length of a membrane segment, > 0; about a cell
-  double gauge_length_m = 0.5;  ///< reported tension is the mean over this length, >= segment length
+  double gauge_length_m = 0.5;       ///< reported tension is the mean over this length, >= segment length
+  std::optional<Wrinkles> wrinkles;  ///< on top of slack that is spread evenly
+  SheetInterface interface = SheetInterface::bonded;  ///< of an enclosing sheet with its body
+  double interface_friction = 0.0;                    ///< Coulomb coefficient, tan(delta), of a frictional one, >= 0
 };
 
 /// One opening row of a table: time, s, and both angles, rad.
@@ -288,6 +308,8 @@ struct SceneDescription {
 
   /// Names of the velocity fields that bodies and free sheets move in, in order.
   std::vector<std::string> velocity_fields() const;
+  /// Whether a velocity field is that of one container: a body, the closed sheet around it, and nothing else.
+  bool is_container(const std::string& field) const;
 
   /// Throws InputError naming `source`, the dotted key, its value and what is allowed.
   void validate() const;

@@ -67,6 +67,31 @@ struct EnergyFrame {
   double relative_balance_error = 0.0;  ///< |change + dissipated - work in| over all energy that changed hands
 };
 
+/// A container's tension since another body started that had been held: what dropping that one on it does.
+struct TensionEpisode {
+  std::string started;  ///< name of the body that started
+  double start_s = 0.0;
+  double before_n_per_m = 0.0;  ///< largest gauge tension just before
+  double peak_n_per_m = 0.0;    ///< largest since, or until the next episode
+  double peak_time_s = 0.0;
+};
+
+/// One container: a body and the sheet around it.
+struct ContainerStatus {
+  std::string name;  ///< the sheet's
+  Outcome outcome = Outcome::none;
+  double release_time_s = -1.0;       ///< < 0 while not released
+  double peak_tension_n_per_m = 0.0;  ///< largest gauge tension so far
+  double peak_tension_time_s = 0.0;
+  Vec2 peak_tension_position_m = Vec2::Zero();
+  double current_tension_n_per_m = 0.0;
+  double elongation_max = 0.0;
+  Vec2 centroid_m = Vec2::Zero();  ///< of the fill, by mass
+  double width_m = 0.0, height_m = 0.0;
+  double soil_volume_m2 = 0.0, soil_volume_initial_m2 = 0.0;
+  std::vector<TensionEpisode> episodes;
+};
+
 struct StatusFrame {
   Outcome outcome = Outcome::waiting;
   double release_time_s = -1.0;       ///< < 0 while not released
@@ -80,6 +105,7 @@ struct StatusFrame {
   double width_m = 0.0, height_m = 0.0;  ///< extent of the container now
   double soil_volume_m2 = 0.0;           ///< per unit width, now
   double soil_volume_initial_m2 = 0.0;
+  std::vector<ContainerStatus> containers;  ///< in the order of their sheets
 };
 
 /// What one probe measured since the frame before.
