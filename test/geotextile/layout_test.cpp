@@ -62,7 +62,8 @@ TEST(Layout, SegmentsHaveEqualClothAndLieCloserInTheFolds)
   parameters.segment_length = 0.05;
   parameters.gauge_length = 0.5;
   Sheet sheet(layout, parameters);
-  EXPECT_FALSE(sheet.update_forces()) << "laid without tension";
+  sheet.update_forces();
+  EXPECT_LT(sheet.largest_strain(), round_off) << "laid without tension";
   EXPECT_EQ(sheet.segments(), static_cast<std::size_t>(std::lround(layout.cloth_length() / 0.05)));
   double inside = 0.0;
   const double rest = layout.cloth_length() / static_cast<double>(sheet.segments());
