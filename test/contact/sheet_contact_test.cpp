@@ -13,35 +13,28 @@ namespace geocontainer_mpm::contact::testing {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double cell = 0.1;
-constexpr double dt = 1e-3;
+constexpr double dt = 3e-3;
+constexpr std::size_t corners = 31;  ///< of the sheet, about a cell apart
 
-mpm::Grid<2> lattice()
-{
-  std::array<mpm::FaceCondition, 4> faces{};
-  return { { -2.0, -2.0 }, { 2.0, 2.0 }, cell, faces };
-}
-
-/// A disc of dust, 1 m in radius, in a sheet that fits it; sheet nodes a cell apart, against the clock.
+/// A disc of dust in a sheet that fits it, 1 m in radius, its nodes against the clock.
 struct Parcel {
   Field fill, sheet;
   SheetContact contact;
 
   explicit Parcel(double friction)
-      : fill(lattice(), disc(), 0.05, 1000.0)
-      , sheet(lattice(), circle(), 0.0, 1.0)
+      : fill(lattice(2.0, 0.2), disc(), 0.1, 1000.0)
+      , sheet(lattice(2.0, 0.2), circle(), 0.0, 1.0)
       , contact(mpm::Shape::bspline2, SheetSide::inside, friction)
   {
-    for (double& mass : sheet.particles.mass)
-      mass = 1.0;
+    std::fill(sheet.particles.mass.begin(), sheet.particles.mass.end(), 2.0);
   }
   static std::vector<Vec2> disc()
   {
     std::vector<Vec2> points;
-    for (int i = -20; i < 20; ++i)
-      for (int j = -20; j < 20; ++j) {
-        const Vec2 x(0.05 * (i + 0.5), 0.05 * (j + 0.5));
-        if (x.norm() < 0.95)
+    for (int i = -10; i < 10; ++i)
+      for (int j = -10; j < 10; ++j) {
+        const Vec2 x(0.1 * (i + 0.5), 0.1 * (j + 0.5));
+        if (x.norm() < 0.9)
           points.push_back(x);
       }
     return points;
@@ -49,44 +42,63 @@ struct Parcel {
   static std::vector<Vec2> circle()
   {
     std::vector<Vec2> points;
-    for (int k = 0; k < 62; ++k)
-      points.emplace_back(std::cos(2.0 * pi * k / 62), std::sin(2.0 * pi * k / 62));
+    for (std::size_t k = 0; k < corners; ++k) {
+      const double angle = 2.0 * pi * static_cast<double>(k) / static_cast<double>(corners);
+      points.emplace_back(std::cos(angle), std::sin(angle));
+    }
     return points;
+  }
+  /// The sheet's nodes in their order: the tests' transfers to the grid sort particles.
+  mpm::Particles<2> chain() const
+  {
+    mpm::Particles<2> nodes = sheet.particles;
+    for (std::size_t p = 0; p < nodes.size(); ++p)
+      for (std::size_t d = 0; d < 2; ++d)
+        nodes.position[d][sheet.particles.id[p]] = sheet.particles.position[d][p];
+    return nodes;
   }
   void step()
   {
     fill.to_grid(dt);
     sheet.to_grid(dt);
-    contact.begin(fill.points.front(), fill.grid, { &sheet.particles, 1.0 }, sheet.grid, dt);
+    const mpm::Particles<2> nodes = chain();
+    contact.begin(fill.points.front(), fill.grid, { &nodes, 1.0 }, sheet.grid, dt);
     contact.guess(fill.grid, sheet.grid);
     double change = 1.0;
-    for (int number = 0; number < 300 && change > 1e-10; ++number)
+    for (int number = 0; number < 100 && change > 1e-9; ++number)
       change = contact.sweep(number, fill.grid, sheet.grid);
     contact.end();
     fill.from_grid(dt);
     sheet.from_grid(dt);
   }
-  Vec2 momentum() const { return fill.momentum() + sheet.momentum(); }
+  static Vec2 momentum_of(const mpm::Particles<2>& particles)
+  {
+    Vec2 sum = Vec2::Zero();
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      sum += particles.mass[p] * Vec2(particles.velocity[0][p], particles.velocity[1][p]);
+    return sum;
+  }
+  Vec2 momentum() const { return momentum_of(fill.particles) + momentum_of(sheet.particles); }
   /// How far the outermost particle is beyond the sheet's nearest side, m; negative: all inside.
   double furthest_out() const
   {
+    const mpm::Particles<2> nodes = chain();
     double furthest = -1.0;
     for (std::size_t p = 0; p < fill.particles.size(); ++p) {
       const Vec2 x(fill.particles.position[0][p], fill.particles.position[1][p]);
-      double nearest = 1e9, signed_distance = 0.0;
-      for (std::size_t k = 0; k < 62; ++k) {
-        const std::size_t l = (k + 1) % 62;
-        const Vec2 a(sheet.particles.position[0][k], sheet.particles.position[1][k]);
-        const Vec2 b(sheet.particles.position[0][l], sheet.particles.position[1][l]);
-        const Vec2 t = (b - a).normalized();
-        const double along = std::clamp((x - a).dot(t), 0.0, (b - a).norm());
-        const double distance = (x - a - along * t).norm();
+      double nearest = 1e9, out = 0.0;
+      for (std::size_t k = 0; k < corners; ++k) {
+        const std::size_t l = (k + 1) % corners;
+        const Vec2 a(nodes.position[0][k], nodes.position[1][k]), b(nodes.position[0][l], nodes.position[1][l]);
+        const Vec2 along = b - a;
+        const double fraction = std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        const double distance = (x - a - fraction * along).norm();
         if (distance < nearest) {
           nearest = distance;
-          signed_distance = -(x - a).dot(left_normal(t));
+          out = -(x - a).dot(left_normal(along.normalized()));
         }
       }
-      furthest = std::max(furthest, signed_distance);
+      furthest = std::max(furthest, out);
     }
     return furthest;
   }
@@ -98,10 +110,10 @@ TEST(SheetContact, KeepsMomentumWhenTheFillRunsIntoItsSheet)
     Parcel parcel(friction);
     parcel.fill.set_velocity({ 0.7, -0.4 });
     const Vec2 before = parcel.momentum();
-    for (int k = 0; k < 200; ++k)
+    for (int k = 0; k < 70; ++k)
       parcel.step();
     EXPECT_LT((parcel.momentum() - before).norm(), 1e-11 * before.norm()) << friction;
-    EXPECT_GT(parcel.sheet.momentum()[0], 0.3 * 62.0 * 0.7) << "its front half is taken along";
+    EXPECT_GT(Parcel::momentum_of(parcel.sheet.particles)[0], 0.3 * 62.0 * 0.7) << "its front half is taken along";
   }
 }
 
@@ -114,7 +126,7 @@ TEST(SheetContact, NothingGetsOut)
       parcel.fill.particles.velocity[d][p] = parcel.fill.particles.position[d][p];
       parcel.fill.particles.affine[3 * d][p] = 1.0;
     }
-  for (int k = 0; k < 300; ++k)
+  for (int k = 0; k < 100; ++k)
     parcel.step();
   EXPECT_LT(parcel.furthest_out(), 0.0);
 }
@@ -124,7 +136,7 @@ TEST(SheetContact, DoesNothingBeforeTheGapCloses)
   Parcel parcel(0.5);
   parcel.fill.set_velocity({ 0.1, 0.0 });
   parcel.step();  // the nearest particles are further from the sheet than half their width and this step's way
-  EXPECT_LT(parcel.sheet.kinetic(), 1e-20);
+  EXPECT_EQ(Parcel::momentum_of(parcel.sheet.particles).norm(), 0.0);
 }
 
 }  // namespace
