@@ -57,7 +57,7 @@ std::string block_in_sheet(double friction)
   return fmt::format(R"(
 name: block
 gravity_m_per_s2: [{}, {}]
-time: {{ end_s: 0.5, output_interval_s: 0.1, probe_interval_s: 0.01 }}
+time: {{ end_s: 0.4, output_interval_s: 0.1, probe_interval_s: 0.01 }}
 grid: {{ cell_size_m: 0.1, lower_m: [-1, -0.5], upper_m: [4, 1.5], faces: {{ y_min: free, y_max: free, z_min: free, z_max: free }} }}
 materials:
   rubber: {{ law: linear_elastic, density_kg_per_m3: 1000, young_modulus_pa: 1.0e6, poisson_ratio: 0.2, stiffness_damping_s: 1.0e-3 }}
@@ -68,7 +68,7 @@ bodies:
 geotextiles:
   sheet:
     encloses: block
-    slack: 1.5
+    slack: 4
     stiffness_n_per_m: 1.0e4
     mass_kg_per_m2: 0.05
     computational_mass_kg_per_m2: 0.5
@@ -90,14 +90,15 @@ TEST(Interface, ABlockSlidesInItsSheetByCoulombsLaw)
   for (const double friction : { 0.0, 0.3 }) {
     Simulation simulation(parse_scene(block_in_sheet(friction), "block"), 1);
     ASSERT_EQ(run(simulation), Advance::finished) << simulation.failure().reason;
-    // Once the sheet has come to lie on the slope; the sheet that goes along weighs less than 1 % of the block.
+    // Once the sheet's front has come to lie under the block, and before its slack there is used up. What goes along of
+    // the sheet weighs up to 1 % of the block.
     const std::vector<double>& velocity = column(simulation, "block", "velocity_y_m_per_s");
-    const double acceleration = (velocity[50] - velocity[20]) / 0.3;
+    const double acceleration = (velocity[40] - velocity[20]) / 0.2;
     const double expected = gravity * (std::sin(35.0 * degrees) - friction * std::cos(35.0 * degrees));
     EXPECT_NEAR(acceleration, expected, 0.02 * expected) << friction;
     // Pulled out from under the block, the sheet hands on what friction allows and no more.
     double along = 0.0, across = 0.0;
-    for (std::size_t i = 20; i <= 50; ++i) {
+    for (std::size_t i = 20; i <= 40; ++i) {
       along += column(simulation, "slope", "force_y_n_per_m")[i];
       across += column(simulation, "slope", "force_z_n_per_m")[i];
     }
