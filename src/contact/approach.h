@@ -9,6 +9,9 @@ namespace geocontainer_mpm::contact {
 constexpr double recovery_per_step = 0.02;
 constexpr double fastest_recovery = 0.05;  // m/s
 
+/// Coulomb coefficient of a contact that is held.
+constexpr double holding_friction = 1e6;
+
 /// Least relative normal velocity over a step of `dt` (s), m/s: what closes the `gap` (m), or opens it again.
 inline double least_velocity(double gap, double dt)
 {

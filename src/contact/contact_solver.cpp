@@ -13,11 +13,6 @@ constexpr int mass_slot = mpm::Grid<2>::mass_slot;
 
 /// Points further from the surface than this are not looked at, cells: no step moves a point as far.
 constexpr double search_cells = 0.5;
-/// Gauss-Seidel ends when no point's velocity changes by more than this in a sweep, or after so many sweeps.
-constexpr double velocity_tolerance = 1e-6;  // m/s
-constexpr int most_sweeps = 30;
-/// Coulomb coefficient of a contact that is held.
-constexpr double holding_friction = 1e6;
 
 /// Corners of the window in space: contact needs material, and material is inside.
 bool is_near(const BoundaryBody& body, const mpm::Grid<2>& grid)
@@ -93,11 +88,11 @@ void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const
   }
 }
 
-void ContactSolver::collect_all(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
-                                const std::vector<Anchor>& anchors, double dt, const mpm::Grid<2>& grid,
-                                ContactSums& sums)
+void ContactSolver::begin(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
+                          const std::vector<Anchor>& anchors, double dt, const mpm::Grid<2>& grid, ContactSums& sums)
 {
   contacts_.clear();
+  touched_.clear();
   std::size_t pairs = 0;
   for (const ContactPoints& set : points)
     pairs += set.particles->size() * bodies.size();
@@ -121,7 +116,6 @@ void ContactSolver::collect_all(const std::vector<BoundaryBody>& bodies, const s
 
 void ContactSolver::remember_untouched(const mpm::Grid<2>& grid)
 {
-  touched_.clear();
   const auto add = [this](const Handle& handle) {
     touched_.insert(touched_.end(), handle.node.begin(),
                     handle.node.begin() + static_cast<std::ptrdiff_t>(handle.count));
@@ -175,22 +169,30 @@ double ContactSolver::relax(Hold& hold, mpm::Grid<2>& grid) const
   return missing.lpNorm<Eigen::Infinity>();
 }
 
-void ContactSolver::iterate(mpm::Grid<2>& grid)
+void ContactSolver::also_touches(const std::vector<std::uint32_t>& nodes)
 {
+  touched_.insert(touched_.end(), nodes.begin(), nodes.end());
+}
+
+void ContactSolver::guess(mpm::Grid<2>& grid)
+{
+  remember_untouched(grid);
   for (const Contact& c : contacts_)
     push(c.handle, c.pressed * c.normal + c.dragged * left_normal(c.normal), grid);
   for (const Hold& hold : holds_)
     push(hold.handle, hold.impulse, grid);
+}
+
+double ContactSolver::sweep(int number, mpm::Grid<2>& grid)
+{
+  // There and back in turn, so that neither end of the surface is favoured.
   const std::size_t count = contacts_.size(), all = count + holds_.size();
-  double change = all == 0 ? 0.0 : 1.0;
-  for (int sweep = 0; sweep < most_sweeps && change > velocity_tolerance; ++sweep) {
-    // There and back in turn, so that neither end of the surface is favoured.
-    change = 0.0;
-    for (std::size_t i = 0; i < all; ++i) {
-      const std::size_t k = sweep % 2 == 0 ? i : all - 1 - i;
-      change = std::max(change, k < count ? relax(contacts_[k], grid) : relax(holds_[k - count], grid));
-    }
+  double change = 0.0;
+  for (std::size_t i = 0; i < all; ++i) {
+    const std::size_t k = number % 2 == 0 ? i : all - 1 - i;
+    change = std::max(change, k < count ? relax(contacts_[k], grid) : relax(holds_[k - count], grid));
   }
+  return change;
 }
 
 void ContactSolver::report(const std::vector<BoundaryBody>& bodies, ContactImpulses& impulses, ContactSums& sums)
@@ -221,11 +223,20 @@ ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const 
                                  ContactImpulses& impulses)
 {
   ContactSums sums;
+  begin(bodies, points, anchors, dt, grid, sums);
+  guess(grid);
+  double change = contacts_.empty() && holds_.empty() ? 0.0 : 1.0;
+  for (int number = 0; number < most_sweeps && change > velocity_tolerance; ++number)
+    change = sweep(number, grid);
+  end(bodies, kick, grid, impulses, sums);
+  return sums;
+}
+
+void ContactSolver::end(const std::vector<BoundaryBody>& bodies, double kick, const mpm::Grid<2>& grid,
+                        ContactImpulses& impulses, ContactSums& sums)
+{
   impulses.boundary.assign(bodies.size(), {});
-  impulses.anchor.assign(anchors.size(), {});
-  collect_all(bodies, points, anchors, dt, grid, sums);
-  remember_untouched(grid);
-  iterate(grid);
+  impulses.anchor.assign(holds_.size(), {});
   report(bodies, impulses, sums);
 
   // Energy node by node. Forces and contact act in the same instant, so that the impulse works on the mean of the
@@ -246,7 +257,6 @@ ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const 
     sums.dissipated += b.work;
   for (const AnchorImpulse& a : impulses.anchor)
     sums.dissipated += a.work;
-  return sums;
 }
 
 }  // namespace geocontainer_mpm::contact

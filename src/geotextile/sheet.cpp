@@ -6,41 +6,6 @@
 namespace geocontainer_mpm::geotextile {
 namespace {
 
-/// Corners of the line in turn, a closed one back to its first.
-std::vector<Vec2> joined(const SheetLayout& layout)
-{
-  std::vector<Vec2> line = layout.points;
-  if (layout.closed)
-    line.push_back(line.front());
-  return line;
-}
-
-double length_of(const std::vector<Vec2>& line)
-{
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    length += (line[i + 1] - line[i]).norm();
-  return length;
-}
-
-/// The first `count` of the points that divide the line into equal `steps`, from its first corner on.
-std::vector<Vec2> resample(const std::vector<Vec2>& line, std::size_t steps, std::size_t count)
-{
-  const double step = length_of(line) / static_cast<double>(steps);
-  std::vector<Vec2> points;
-  double passed = 0.0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vec2 along = line[i + 1] - line[i];
-    const double length = along.norm();
-    while (points.size() < count && static_cast<double>(points.size()) * step <= passed + length)
-      points.emplace_back(line[i] + (static_cast<double>(points.size()) * step - passed) / length * along);
-    passed += length;
-  }
-  if (points.size() < count)  // round-off at the very end
-    points.push_back(line.back());
-  return points;
-}
-
 /// Segments shorter than this part of their rest length are taken to stay slack over a step. A choice, not a bound: at
 /// a hard landing a strain can change by more in a step, and the stiffness then counts from the next step on.
 constexpr double slack_strain = -0.01;
@@ -50,10 +15,10 @@ constexpr double slack_strain = -0.01;
 Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters)
     : parameters_(parameters), law_(parameters.stiffness, parameters.force_strain)
 {
-  const std::vector<Vec2> line = joined(layout);
   const double least = layout.closed ? 3.0 : 1.0;
-  const auto count = static_cast<std::size_t>(std::max(least, std::round(length_of(line) / parameters.segment_length)));
-  const std::vector<Vec2> points = resample(line, count, layout.closed ? count : count + 1);
+  const auto count =
+      static_cast<std::size_t>(std::max(least, std::round(layout.cloth_length() / parameters.segment_length)));
+  const std::vector<Vec2> points = divide(layout, count, layout.closed ? count : count + 1);
   const double rest = parameters.unstretched_length / static_cast<double>(count);
   nodes_.resize(points.size());
   rest_length_.assign(count, rest);

@@ -41,8 +41,15 @@ int write_all(int file, const std::string& text)
 }
 
 /// A value with its unit, or a dash where the summary has none.
+/// Of several containers one after the other.
 std::string quantity(const Json& value, double scale, int decimals, const char* unit)
 {
+  if (value.is_array()) {
+    std::string text;
+    for (const Json& one : value)
+      text += (text.empty() ? "" : "; ") + quantity(one, scale, decimals, unit);
+    return text;
+  }
   if (!value.is_number())
     return "-";
   return fmt::format("{:.{}f} {}", value.get<double>() * scale, decimals, unit);
@@ -52,7 +59,23 @@ std::string place(const Json& position)
 {
   if (!position.is_array())
     return "-";
+  if (position.empty() || !position.front().is_number()) {
+    std::string text;
+    for (const Json& one : position)
+      text += (text.empty() ? "" : "; ") + place(one);
+    return text;
+  }
   return fmt::format("y {:.2f} m, z {:.2f} m", position.at(0).get<double>(), position.at(1).get<double>());
+}
+
+std::string words(const Json& value)
+{
+  if (!value.is_array())
+    return value.get<std::string>();
+  std::string text;
+  for (const Json& one : value)
+    text += (text.empty() ? "" : ", ") + one.get<std::string>();
+  return text;
 }
 
 std::string rejected(const Json& counts)
@@ -135,11 +158,11 @@ std::string table(const Json& s)
 {
   std::string text;
   const auto row = [&](const char* name, const std::string& value) { text += line(name, value); };
-  text += fmt::format("{}: {}\n", s.at("scene").get<std::string>(), s.at("outcome").get<std::string>());
+  text += fmt::format("{}: {}\n", s.at("scene").get<std::string>(), words(s.at("outcome")));
   if (!s.value("completed", true))  // the node's summary is of a moment and does not say
     row("not completed", s.at("why").get<std::string>());
   row("release time", quantity(s.at("release_time_s"), 1.0, 2, "s"));
-  if (s.at("peak_tension_n_per_m").is_number()) {
+  if (!s.at("peak_tension_n_per_m").is_null()) {
     row("peak tension", quantity(s.at("peak_tension_n_per_m"), 1e-3, 2, "kN/m"));
     row("  at", quantity(s.at("peak_tension_time_s"), 1.0, 2, "s") + ", " + place(s.at("peak_tension_position_m")));
     row("  of seam strength", quantity(s.at("peak_utilisation_seam"), 100.0, 1, "%"));
@@ -153,7 +176,7 @@ std::string table(const Json& s)
   }
   row("centroid", place(s.at("container_centroid_m")));
   row("width, height",
-      quantity(s.at("container_width_m"), 1.0, 2, "m, ") + quantity(s.at("container_height_m"), 1.0, 2, "m"));
+      quantity(s.at("container_width_m"), 1.0, 2, "m") + ", " + quantity(s.at("container_height_m"), 1.0, 2, "m"));
   row("soil volume change", quantity(s.at("soil_volume_change"), 100.0, 2, "%"));
   row("energy balance error", quantity(s.at("energy").at("relative_balance_error"), 100.0, 2, "%"));
   for (const Json& flag : s.value("flags", Json::array()))

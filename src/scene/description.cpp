@@ -96,6 +96,21 @@ std::vector<std::string> SceneDescription::velocity_fields() const
   return { fields.begin(), fields.end() };
 }
 
+bool SceneDescription::is_container(const std::string& field) const
+{
+  const auto in_field = [&field](const std::string& named) { return (named.empty() ? common_field : named) == field; };
+  std::size_t bodies_in = 0, sheets_around = 0;
+  for (const auto& entry : bodies)
+    bodies_in += in_field(entry.second.velocity_field) ? 1 : 0;
+  for (const auto& entry : geotextiles) {
+    const bool free = entry.second.encloses.empty();
+    if (free && in_field(entry.second.velocity_field))
+      return false;
+    sheets_around += !free && in_field(bodies.at(entry.second.encloses).velocity_field) ? 1 : 0;
+  }
+  return bodies_in == 1 && sheets_around == 1;
+}
+
 void SceneDescription::validate() const
 {
   try {

@@ -124,6 +124,13 @@ void describe(V& v, VelocityWave& w)
 }
 
 template <class V>
+void describe(V& v, Region& r)
+{
+  v.value({ "lower_m", required, "m", "lower corner" }, r.lower_m);
+  v.value({ "upper_m", required, "m", "upper corner" }, r.upper_m);
+}
+
+template <class V>
 void describe(V& v, BodyDescription& b)
 {
   v.value({ "material", required, "", "a name in `materials`" }, b.material, at_least(1));
@@ -157,6 +164,10 @@ void describe(V& v, BodyDescription& b)
               "motion with a known body force, for verification: the body starts on the solution and is driven by its "
               "force. Needs law `neo_hookean`, the solution's own shape, and no gravity" },
             b.manufactured);
+  v.value({ "held_until_s", optional, "s",
+            "until then the body and the sheet around it stay in place and touch nothing; then they start with the "
+            "initial velocity" },
+          b.held_until_s, non_negative());
 }
 
 }  // namespace geocontainer_mpm::scene::grammar

@@ -48,6 +48,16 @@ void describe(V& v, SeamDescription& s)
 }
 
 template <class V>
+void describe(V& v, Wrinkles& w)
+{
+  v.section({ "region", required, "", "the parts of the path in this rectangle hold the folds" }, w.region);
+  v.value({ "number", required, "", "of folds, at even distances" }, w.number, closed(1, 10000));
+  v.value({ "amplitude_m", required, "m",
+            "height of a fold: n folds of height a make a stretch of length L sqrt(L^2 + (2 n a)^2) long" },
+          w.amplitude_m, positive());
+}
+
+template <class V>
 void describe(V& v, GeotextileDescription& g)
 {
   v.value({ "encloses", optional, "", "the body in `bodies` around whose outline the closed sheet is laid" },
@@ -106,6 +116,18 @@ void describe(V& v, GeotextileDescription& g)
           g.segment_length_m, positive());
   v.value({ "gauge_length_m", optional, "m", "reported tension is the mean over this; not below `segment_length_m`" },
           g.gauge_length_m, positive());
+  v.section({ "wrinkles", optional, "", "cloth laid in folds along part of the path; other slack is spread evenly" },
+            g.wrinkles);
+  v.value(
+      { "interface", optional, "",
+        "between the sheet and the body that it encloses. `bonded`: one velocity field; `frictional`: they slip and "
+        "part",
+        !free, "a sheet that encloses a body" },
+      g.interface);
+  const bool slips = g.interface == SheetInterface::frictional;
+  v.value({ "interface_friction", required, "", "Coulomb coefficient between sheet and body: tan(delta)", slips,
+            "interface `frictional`" },
+          g.interface_friction, non_negative());
 }
 
 template <class V>

@@ -8,13 +8,6 @@
 namespace geocontainer_mpm::scene::grammar {
 
 template <class V>
-void describe(V& v, Region& r)
-{
-  v.value({ "lower_m", required, "m", "lower corner" }, r.lower_m);
-  v.value({ "upper_m", required, "m", "upper corner" }, r.upper_m);
-}
-
-template <class V>
 void describe(V& v, SupportDescription& s)
 {
   v.section({ "region", required, "", "nodes within or on the edge of this rectangle; it may be a line or a point" },

@@ -36,6 +36,12 @@ struct Words<ManufacturedSolution> {
   };
 };
 template <>
+struct Words<SheetInterface> {
+  static constexpr std::array<std::pair<SheetInterface, const char*>, 2> list{
+    { { SheetInterface::bonded, "bonded" }, { SheetInterface::frictional, "frictional" } }
+  };
+};
+template <>
 struct Words<mpm::Shape> {
   static constexpr std::array<std::pair<mpm::Shape, const char*>, 2> list{
     { { mpm::Shape::bspline2, "bspline2" }, { mpm::Shape::linear_simplex, "linear_simplex" } }

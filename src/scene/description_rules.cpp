@@ -118,10 +118,14 @@ void check_consistent_mass(const SceneDescription& scene)
     return;
   const bool held = std::any_of(scene.geotextiles.begin(), scene.geotextiles.end(),
                                 [](const auto& sheet) { return sheet.second.start.held || sheet.second.end.held; });
+  const bool slipping = std::any_of(scene.geotextiles.begin(), scene.geotextiles.end(), [](const auto& sheet) {
+    return sheet.second.interface == SheetInterface::frictional;
+  });
   const char* touching = scene.hull                ? "a hull"
                          : !scene.surfaces.empty() ? "surfaces"
                          : !scene.contacts.empty() ? "contacts"
                          : !scene.supports.empty() ? "supports"
+                         : slipping                ? "a frictional interface of a geotextile"
                          : held                    ? "a held end of a geotextile"
                                                    : nullptr;
   if (touching)

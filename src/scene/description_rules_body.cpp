@@ -99,6 +99,9 @@ void check_manufactured(const std::string& key, const BodyDescription& body, con
            "a body with a manufactured solution starts with the solution's velocity: no other, no spin, no wave");
   const Vec2& origin = manufactured.origin_m;
   const ShapeDescription& shape = body.shape;
+  if (body.held_until_s > 0.0)
+    refuse(key + ".held_until_s", number_text(body.held_until_s),
+           "must be 0: a body with a manufactured solution starts on the solution");
   if (manufactured.solution == ManufacturedSolution::axis_aligned) {
     if (!(manufactured.amplitude < 1.0 / pi))
       refuse(key + ".manufactured.amplitude", number_text(manufactured.amplitude),

@@ -12,6 +12,7 @@ namespace {
 
 using grammar::number_text;
 using grammar::refuse;
+using grammar::to_text;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -76,6 +77,12 @@ void check_lengths(const std::string& key, const GeotextileDescription& sheet, c
   if (length && sheet.gauge_length_m > *length * (1.0 + relative_tolerance))
     refuse(key + ".gauge_length_m", number_text(sheet.gauge_length_m),
            fmt::format("must be at most the unstretched length, {:.6g} m", *length));
+}
+
+void check_region(const std::string& key, const Region& region)
+{
+  if (!((region.upper_m - region.lower_m).minCoeff() >= 0.0))
+    refuse(key + ".upper_m", to_text(region.upper_m), "must not lie below lower_m = " + to_text(region.lower_m));
 }
 
 /// The sheet is laid where its ends are at time 0.
@@ -144,6 +151,8 @@ void check_geotextile(const std::string& key, const GeotextileDescription& sheet
   check_lengths(key, sheet, scene);
   check_spacing(key, sheet, scene.grid);
   check_strength(key, sheet, scene.grid);
+  if (sheet.wrinkles)
+    check_region(key + ".wrinkles.region", sheet.wrinkles->region);
   if (is_open(sheet)) {
     check_end(key + ".start", sheet.start);
     check_end(key + ".end", sheet.end);
@@ -163,6 +172,15 @@ void check_geotextiles(const SceneDescription& scene)
     const auto [other, is_new] = sheet_around.emplace(sheet.encloses, name);
     if (!is_new)
       refuse(key + ".encloses", sheet.encloses, "is enclosed by " + other->second + " already");
+  }
+  for (const auto& [name, sheet] : scene.geotextiles) {
+    if (sheet.interface != SheetInterface::frictional)
+      continue;
+    const std::string& named = scene.bodies.at(sheet.encloses).velocity_field;
+    const std::string field = named.empty() ? common_field : named;
+    if (!scene.is_container(field))
+      refuse("geotextiles." + name + ".interface", to_text(sheet.interface),
+             fmt::format("needs the velocity field {} for {} and this sheet alone", field, sheet.encloses));
   }
 }
 

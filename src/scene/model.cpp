@@ -33,6 +33,8 @@ void Model::sort_particles()
   if (now_.sorted && now_.travel_since_sort <= 0.9 * fields_.front().grid.dx())
     return;
   for (Body& body : now_.bodies) {
+    if (body.held)
+      continue;
     sorter_.sort(fields_[body.field].grid, body.particles, body.strips);
     for (std::size_t p = 0; p < body.row.size(); ++p)
       body.row[body.particles.id[p]] = static_cast<std::uint32_t>(p);
@@ -69,6 +71,7 @@ void Model::transfer_to_grid(double time_s)
 {
   StageClock clock;
   now_.gravity = gravity_at(time_s);
+  start_bodies(time_s);
   sort_particles();
   open_grids();
   clock.mark(stages_.p2g_s);
@@ -168,7 +171,7 @@ void Model::apply_forces(const StepInput& input, double kick)
   now_.kinetic = after;
   now_.kinetic_known = true;
   if (away_from_faces && input.damping_per_s == 0.0) {
-    const Vec2 pull = kick * (weight_mass_ * now_.gravity + load_sum_);
+    const Vec2 pull = kick * ((weight_mass_ - held(&LateStart::weight_mass)) * now_.gravity + load_sum_);
     now_.ledger.momentum_error += (change - pull).norm();
     now_.ledger.momentum_exchanged += pull.norm();
   }
@@ -182,11 +185,15 @@ void Model::collect_points()
     field.all_points.clear();
   }
   for (const Body& body : now_.bodies) {
+    if (body.held)
+      continue;
     fields_[body.field].all_points.push_back({ &body.particles, true });
     if (!body.enclosed)
       fields_[body.field].points.push_back({ &body.particles, true });
   }
   for (const ModelSheet& sheet : now_.sheets) {
+    if (sheet.held)
+      continue;
     fields_[sheet.field].all_points.push_back({ &sheet.sheet.nodes(), false });
     fields_[sheet.field].points.push_back({ &sheet.sheet.nodes(), false });
   }
@@ -198,30 +205,43 @@ void Model::solve_contact(const StepInput& input, double kick)
     boundaries_[b].set_motion(input.start[b], input.end[b], input.dt_s);
   collect_points();
 
-  const auto take = [&](const contact::ContactSums& sums) {
-    now_.kinetic += sums.kinetic_change;
-    now_.ledger.contact += sums.dissipated;
-    now_.ledger.momentum_exchanged += sums.impulse.norm();
-    now_.skipped.contact_searches += sums.skipped;
-  };
   for (FieldPair& pair : pairs_)
     take(pair.contact.solve({ &fields_[pair.a].grid, &fields_[pair.a].all_points },
                             { &fields_[pair.b].grid, &fields_[pair.b].all_points }, pair.friction, kick, input.dt_s));
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    collect_anchors(input, f);
+  if (!sheet_pairs_.empty()) {
+    solve_sheet_contact(input, kick);
+    return;
+  }
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     Field& field = fields_[f];
-    collect_anchors(input, f);
     take(now_.contact[f].solve(boundaries_, field.points, field.anchors, kick, input.dt_s, field.grid, field.impulses));
-    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
-      const contact::BoundaryImpulse& done = field.impulses.boundary[b];
-      BoundaryTotal& total = now_.boundary_totals[b];
-      total.impulse += done.impulse;
-      total.moment += done.moment;
-      total.work += done.work;
-      now_.ledger.work_in += done.work;
-    }
-    for (const contact::AnchorImpulse& anchor : field.impulses.anchor)
-      now_.ledger.work_in += anchor.work;
+    take_impulses(field);
   }
+}
+
+void Model::take(const contact::ContactSums& sums)
+{
+  now_.kinetic += sums.kinetic_change;
+  now_.ledger.contact += sums.dissipated;
+  now_.ledger.momentum_exchanged += sums.impulse.norm();
+  now_.skipped.contact_searches += sums.skipped;
+}
+
+/// What boundaries and anchors did to a field.
+void Model::take_impulses(const Field& field)
+{
+  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    const contact::BoundaryImpulse& done = field.impulses.boundary[b];
+    BoundaryTotal& total = now_.boundary_totals[b];
+    total.impulse += done.impulse;
+    total.moment += done.moment;
+    total.work += done.work;
+    now_.ledger.work_in += done.work;
+  }
+  for (const contact::AnchorImpulse& anchor : field.impulses.anchor)
+    now_.ledger.work_in += anchor.work;
 }
 
 /// Where held ends of sheets are to be at the end of the step.
@@ -268,6 +288,8 @@ void Model::restore(const ModelState& state)
 void Model::hold(bool held)
 {
   for (contact::ContactSolver& contact : now_.contact)
+    contact.hold(held);
+  for (contact::SheetContact& contact : now_.sheet_contact)
     contact.hold(held);
 }
 

@@ -37,7 +37,7 @@ void Model::open_ledger()
 
 double Model::rms_velocity() const
 {
-  return std::sqrt(2.0 * std::max(0.0, now_.kinetic) / inertia_);
+  return std::sqrt(2.0 * std::max(0.0, now_.kinetic) / (inertia_ - held(&LateStart::inertia)));
 }
 
 Vec2 Model::centroid() const
@@ -75,6 +75,8 @@ double Model::fundamental_frequency()
   // A quarter wave over the height of all that is there, at the slowest body's wave speed.
   double speed = std::numeric_limits<double>::infinity(), low = speed, high = -speed;
   for (Body& body : now_.bodies) {
+    if (body.held)
+      continue;
     mpm::Particles<2>& particles = body.particles;
     const double modulus = body.law->stiffness(particles.batch(), 0, particles.size()).constrained_modulus;
     speed = std::min(speed, std::sqrt(modulus * particles.volume[0] / particles.mass[0]));

@@ -155,9 +155,11 @@ Model::Model(const SceneDescription& scene, int threads)
   build_fields(scene);
   build_bodies(scene);
   build_sheets(scene);
+  build_contacts(scene);
   build_boundaries(scene);
   build_loads(scene);
   weigh();
+  build_late_starts(scene);
   survey();
 }
 
@@ -170,13 +172,14 @@ std::size_t Model::field_index(const std::string& name) const
 
 void Model::build_fields(const SceneDescription& scene)
 {
-  for (const std::string& name : scene.velocity_fields()) {
-    fields_.emplace_back(name, mpm::Grid<2>(lower_, upper_, scene.grid.cell_size_m, scene.grid.faces));
-    now_.contact.emplace_back(method_.shape);
-  }
-  for (const auto& [name, touching] : scene.contacts)
-    pairs_.push_back({ field_index(touching.between[0]), field_index(touching.between[1]), touching.friction,
-                       contact::FieldContact(method_.shape) });
+  for (const std::string& name : scene.velocity_fields())
+    add_field(name, scene);
+}
+
+void Model::add_field(const std::string& name, const SceneDescription& scene)
+{
+  fields_.emplace_back(name, mpm::Grid<2>(lower_, upper_, scene.grid.cell_size_m, scene.grid.faces));
+  now_.contact.emplace_back(method_.shape);
 }
 
 void Model::build_bodies(const SceneDescription& scene)
@@ -240,7 +243,15 @@ void Model::build_sheets(const SceneDescription& scene)
     parameters.force_strain = description.force_strain_table;
     parameters.rupture_strain = description.rupture_strain;
     const geotextile::SheetLayout layout = sheet_layout(description, scene);
+    if (description.wrinkles && layout.fullness.empty())
+      throw InputError(scene.source, "geotextiles." + name + ".wrinkles.region", "",
+                       "must hold part of the path along which the sheet is laid");
     parameters.unstretched_length = unstretched_length(description, layout);
+    if (description.circumference_m && description.wrinkles &&
+        *description.circumference_m < layout.cloth_length() * (1.0 - 1e-9))
+      throw InputError(
+          scene.source, "geotextiles." + name + ".circumference_m", fmt::format("{}", *description.circumference_m),
+          fmt::format("must be at least {:.6g} m, what the path with its wrinkles takes", layout.cloth_length()));
     geotextile::Sheet laid(layout, parameters);
     const geotextile::Strength strength = strength_of(description, laid);
     ModelSheet sheet{ name, 0, std::move(laid), strength };
@@ -250,9 +261,16 @@ void Model::build_sheets(const SceneDescription& scene)
     } else {
       const BodyDescription& inside = scene.bodies.at(description.encloses);
       sheet.field = field_index(inside.velocity_field);
+      if (description.interface == SheetInterface::frictional) {
+        sheet.field = fields_.size();
+        add_field(name, scene);
+      }
       set_velocity(inside.initial_velocity_m_per_s, 0.0, std::nullopt, sheet.sheet.nodes());
-      for (Body& body : now_.bodies)
-        body.enclosed = body.enclosed || body.name == description.encloses;
+      for (std::size_t b = 0; b < now_.bodies.size(); ++b)
+        if (now_.bodies[b].name == description.encloses) {
+          now_.bodies[b].enclosed = true;
+          sheet.inside = b;
+        }
     }
     const std::size_t last = sheet.sheet.nodes().size() - 1;
     for (const auto& [end, node] :

@@ -118,7 +118,7 @@ std::size_t Model::active_segments() const
 {
   std::size_t active = 0;
   for (const ModelSheet& sheet : now_.sheets)
-    active += sheet.sheet.active_pieces();
+    active += sheet.held ? 0 : sheet.sheet.active_pieces();
   return active;
 }
 
@@ -128,7 +128,7 @@ void Model::assemble_bound(std::size_t f)
   Field& field = fields_[f];
   field.bound.begin(field.grid, method_);
   for (Body& body : now_.bodies) {
-    if (body.field != f)
+    if (body.field != f || body.held)
       continue;
     // The law bounds its acoustic tensor; the ratio of its moduli is taken to stay.
     const material::Stiffness now = body.law->stiffness(body.particles.batch(), 0, body.particles.size());
@@ -139,7 +139,7 @@ void Model::assemble_bound(std::size_t f)
   }
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
     const geotextile::Sheet& sheet = now_.sheets[s].sheet;
-    if (now_.sheets[s].field != f)
+    if (now_.sheets[s].field != f || now_.sheets[s].held)
       continue;
     field.bound.add_mass(sheet.nodes());
     sheet.add_stiffness(field.bound);

@@ -40,7 +40,7 @@ void Model::load_particles(double time_s)
 {
   load_sum_ = Vec2::Zero();
   for (Body& body : now_.bodies) {
-    if (!body.manufactured)
+    if (!body.manufactured || body.held)
       continue;
     for (std::size_t p = 0; p < body.particles.size(); ++p) {
       const Vec2 force =
@@ -53,7 +53,7 @@ void Model::load_particles(double time_s)
   bool taut = false;
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
     geotextile::Sheet& sheet = now_.sheets[s].sheet;
-    if (!sheet.update_forces(load_at(sheet_descriptions_[s], time_s)))
+    if (now_.sheets[s].held || !sheet.update_forces(load_at(sheet_descriptions_[s], time_s)))
       continue;
     taut = true;
     for (std::size_t i = 0; i < sheet.nodes().size(); ++i)  // tensions cancel
@@ -67,18 +67,22 @@ void Model::load_particles(double time_s)
 void Model::scatter(Part part)
 {
   for (const Body& body : now_.bodies)
-    mpm::body_to_grid(method_, body.particles, body.strips,
-                      { part, body.manufactured || (water_ && !body.enclosed), body.damping }, now_.gravity,
-                      fields_[body.field].grid, *team_);
+    if (!body.held)
+      mpm::body_to_grid(method_, body.particles, body.strips,
+                        { part, body.manufactured || (water_ && !body.enclosed), body.damping }, now_.gravity,
+                        fields_[body.field].grid, *team_);
   for (const ModelSheet& sheet : now_.sheets)
-    mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid,
-                       sheet.sheet.strains_with_grid());
+    if (!sheet.held)
+      mpm::sheet_to_grid(method_, sheet.sheet.nodes(), part, now_.gravity, fields_[sheet.field].grid,
+                         sheet.sheet.strains_with_grid());
 }
 
 void Model::add_tractions(double time_s)
 {
   for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
     const Body& body = now_.bodies[traction_body_[t]];
+    if (body.held)
+      continue;
     load_sum_ += now_.tractions[t].add_to(fields_[body.field].grid, method_.shape, body.particles, body.row, time_s);
   }
 }
@@ -93,10 +97,10 @@ void Model::assemble_mass()
     mpm::ConsistentMass<2>& mass = field.update.mass();
     mass.open(method_.shape, field.grid);
     for (const Body& body : now_.bodies)
-      if (body.field == f)
+      if (body.field == f && !body.held)
         mass.add(body.particles, body.strips, field.grid, *team_);
     for (const ModelSheet& sheet : now_.sheets)
-      if (sheet.field == f)
+      if (sheet.field == f && !sheet.held)
         mass.add(sheet.sheet.nodes(), field.grid);
   }
 }
@@ -184,13 +188,14 @@ void Model::map_back(const StepInput& input)
 void Model::smooth_gradients()
 {
   for (Body& body : now_.bodies)
-    mpm::smooth_gradients(method_, body.strips, body.particles, fields_[body.field].grid, *team_);
+    if (!body.held)
+      mpm::smooth_gradients(method_, body.strips, body.particles, fields_[body.field].grid, *team_);
 }
 
 void Model::gather_bodies(Gather what, double dt)
 {
   for (Body& body : now_.bodies)
-    for_chunks(body.particles.size(), *team_, [&](std::size_t first, std::size_t last) {
+    for_chunks(body.held ? 0 : body.particles.size(), *team_, [&](std::size_t first, std::size_t last) {
       mpm::grid_to_particles(method_, fields_[body.field].grid, dt, what, body.particles, first, last);
     });
 }
@@ -199,7 +204,7 @@ void Model::gather_sheets(Gather what, double dt)
 {
   for (ModelSheet& sheet : now_.sheets) {
     const bool strains = sheet.sheet.strains_with_grid();  // gradients are for who strains by them
-    if (what == Gather::gradient && !strains)
+    if (sheet.held || (what == Gather::gradient && !strains))
       continue;
     mpm::grid_to_particles(method_, fields_[sheet.field].grid, dt,
                            what == Gather::all && !strains ? Gather::motion : what, sheet.sheet.nodes(), 0,
@@ -223,11 +228,12 @@ void Model::update_stress(double dt)
 {
   for (Body& body : now_.bodies) {
     const material::Batch<2> batch = body.particles.batch();
-    for_chunks(body.particles.size(), *team_,
+    for_chunks(body.held ? 0 : body.particles.size(), *team_,
                [&](std::size_t first, std::size_t last) { body.law->update(batch, dt, first, last); });
   }
   for (ModelSheet& sheet : now_.sheets)
-    sheet.sheet.update_stress(dt);
+    if (!sheet.held)
+      sheet.sheet.update_stress(dt);
 }
 
 }  // namespace geocontainer_mpm::scene

@@ -9,6 +9,14 @@ namespace {
 /// A hull counts as open once its slot is wider than this, m: more than play and sensor noise make of a closed one.
 constexpr double open_slot_m = 0.05;
 
+double volume_of(const Body& body)
+{
+  double volume = 0.0;
+  for (double v : body.particles.volume)
+    volume += v;
+  return volume;
+}
+
 double soil_volume(const Model& model)
 {
   double volume = 0.0;
@@ -18,96 +26,185 @@ double soil_volume(const Model& model)
   return volume;
 }
 
+struct Extent {
+  Vec2 lower = Vec2::Constant(1e300), upper = -lower;
+
+  void add(const mpm::Particles<2>& particles)
+  {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Vec2 x(particles.position[0][p], particles.position[1][p]);
+      lower = lower.cwiseMin(x);
+      upper = upper.cwiseMax(x);
+    }
+  }
+};
+
 }  // namespace
 
-ReleaseWatch::ReleaseWatch(const SceneDescription& scene) : hung_up_after_s_(scene.outcome.hung_up_after_s)
+ReleaseWatch::ReleaseWatch(const SceneDescription& scene)
+    : hung_up_after_s_(scene.outcome.hung_up_after_s), watched_(scene.geotextiles.size())
 {
   if (scene.hull && !scene.geotextiles.empty()) {
     hull_.emplace(scene.hull->hinge_m, scene.hull->port_section_m, "hull");
-    outcome_ = Outcome::waiting;
+    for (Watched& watched : watched_)
+      watched.outcome = Outcome::waiting;
   }
 }
 
 void ReleaseWatch::observe(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
 {
-  if (initial_volume_ < 0.0)
+  if (initial_volume_ < 0.0) {
     initial_volume_ = soil_volume(model);
-  current_ = 0.0;
-  ruptures_ = 0;
-  for (const ModelSheet& enclosing : model.sheets()) {
-    const geotextile::Sheet& sheet = enclosing.sheet;
-    sheet.gauge_tension(gauge_);
-    const auto largest = std::max_element(gauge_.begin(), gauge_.end());
-    current_ = std::max(current_, *largest);
-    elongation_ = std::max(elongation_, sheet.largest_strain());
-    const geotextile::Utilisation used = enclosing.strength.utilisation(gauge_);
-    utilisation_ = { std::max(utilisation_.sheet, used.sheet), std::max(utilisation_.seam, used.seam) };
-    ruptures_ += sheet.ruptures();
-    if (rupture_time_s_ < 0.0 && sheet.ruptures() > 0) {
-      rupture_time_s_ = time_s;
-      rupture_position_ = sheet.rupture_place();
-    }
-    if (*largest > peak_) {
-      const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
-      peak_ = *largest;
-      peak_time_s_ = time_s;
-      peak_position_ = 0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment)));
-    }
+    for (std::size_t s = 0; s < watched_.size(); ++s)
+      if (model.sheets()[s].inside)
+        watched_[s].initial_volume = volume_of(model.bodies()[*model.sheets()[s].inside]);
+    for (const Body& body : model.bodies())
+      held_.push_back(body.held);
   }
-  if (hull_)
-    judge(model, time_s, opening, still_for_s);
+  open_episodes(model, time_s);
+  for (std::size_t s = 0; s < watched_.size(); ++s) {
+    measure(model.sheets()[s], time_s, watched_[s]);
+    if (hull_)
+      judge(model.sheets()[s], time_s, opening, still_for_s, watched_[s]);
+  }
 }
 
-void ReleaseWatch::judge(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
+/// For every container one since a body has started. Called before the tensions of this look are known.
+void ReleaseWatch::open_episodes(const Model& model, double time_s)
 {
-  if (outcome_ == Outcome::released || (outcome_ == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
+  for (std::size_t b = 0; b < held_.size(); ++b) {
+    if (!held_[b] || model.bodies()[b].held)
+      continue;
+    held_[b] = false;
+    for (Watched& watched : watched_)
+      watched.episodes.push_back({ model.bodies()[b].name, time_s, watched.current, 0.0, time_s });
+  }
+}
+
+void ReleaseWatch::measure(const ModelSheet& what, double time_s, Watched& watched)
+{
+  const geotextile::Sheet& sheet = what.sheet;
+  sheet.gauge_tension(gauge_);
+  const auto largest = std::max_element(gauge_.begin(), gauge_.end());
+  watched.current = std::max(0.0, *largest);
+  watched.elongation = std::max(watched.elongation, sheet.largest_strain());
+  const geotextile::Utilisation used = what.strength.utilisation(gauge_);
+  watched.used = { std::max(watched.used.sheet, used.sheet), std::max(watched.used.seam, used.seam) };
+  watched.ruptures = sheet.ruptures();
+  if (watched.rupture_time_s < 0.0 && watched.ruptures > 0) {
+    watched.rupture_time_s = time_s;
+    watched.rupture_position = sheet.rupture_place();
+  }
+  if (!watched.episodes.empty() && *largest > watched.episodes.back().peak_n_per_m) {
+    watched.episodes.back().peak_n_per_m = *largest;
+    watched.episodes.back().peak_time_s = time_s;
+  }
+  if (*largest > watched.peak) {
+    const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
+    watched.peak = *largest;
+    watched.peak_time_s = time_s;
+    watched.peak_position = 0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment)));
+  }
+}
+
+void ReleaseWatch::judge(const ModelSheet& sheet, double time_s, const barge::OpeningAngles& opening,
+                         double still_for_s, Watched& watched) const
+{
+  if (sheet.held || watched.outcome == Outcome::released ||
+      (watched.outcome == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
     return;
-  double top = model.sheets().front().sheet.node(0)[1];
-  for (const ModelSheet& enclosing : model.sheets()) {
-    const mpm::Column& z = enclosing.sheet.nodes().position[1];
-    top = std::max(top, *std::max_element(z.begin(), z.end()));
-  }
-  if (top < hull_->lowest_level_m(opening)) {
-    outcome_ = Outcome::released;
-    release_time_s_ = time_s;
+  const mpm::Column& z = sheet.sheet.nodes().position[1];
+  if (*std::max_element(z.begin(), z.end()) < hull_->lowest_level_m(opening)) {
+    watched.outcome = Outcome::released;
+    watched.release_time_s = time_s;
   } else {
-    outcome_ = still_for_s >= hung_up_after_s_ ? Outcome::hung_up : Outcome::releasing;
+    watched.outcome = still_for_s >= hung_up_after_s_ ? Outcome::hung_up : Outcome::releasing;
   }
+}
+
+/// Of all together: released when the last is, hung up when one is.
+Outcome ReleaseWatch::outcome() const
+{
+  if (!hull_)
+    return Outcome::none;
+  const auto any = [this](Outcome outcome) {
+    return std::any_of(watched_.begin(), watched_.end(), [outcome](const Watched& w) { return w.outcome == outcome; });
+  };
+  for (const Outcome outcome : { Outcome::hung_up, Outcome::releasing, Outcome::waiting })
+    if (any(outcome))
+      return outcome;
+  return Outcome::released;
 }
 
 StatusFrame ReleaseWatch::status(const Model& model) const
 {
   StatusFrame status;
-  status.outcome = outcome_;
-  status.release_time_s = release_time_s_;
-  status.peak_tension_n_per_m = peak_;
-  status.peak_tension_time_s = peak_time_s_;
-  status.peak_tension_position_m = peak_position_;
-  status.current_tension_n_per_m = current_;
-  status.elongation_max = elongation_;
+  status.outcome = outcome();
+  for (const Watched& watched : watched_) {
+    if (status.outcome == Outcome::released)
+      status.release_time_s = std::max(status.release_time_s, watched.release_time_s);
+    status.current_tension_n_per_m = std::max(status.current_tension_n_per_m, watched.current);
+    status.elongation_max = std::max(status.elongation_max, watched.elongation);
+    status.peak_utilisation_sheet = std::max(status.peak_utilisation_sheet, watched.used.sheet);
+    status.peak_utilisation_seam = std::max(status.peak_utilisation_seam, watched.used.seam);
+    status.ruptures += watched.ruptures;
+    if (watched.ruptures > 0 && (status.rupture_time_s < 0.0 || watched.rupture_time_s < status.rupture_time_s)) {
+      status.rupture_time_s = watched.rupture_time_s;
+      status.rupture_position_m = watched.rupture_position;
+    }
+    if (watched.peak <= status.peak_tension_n_per_m)
+      continue;
+    status.peak_tension_n_per_m = watched.peak;
+    status.peak_tension_time_s = watched.peak_time_s;
+    status.peak_tension_position_m = watched.peak_position;
+  }
   status.soil_volume_m2 = soil_volume(model);
   status.soil_volume_initial_m2 = initial_volume_;
-  status.peak_utilisation_sheet = utilisation_.sheet;
-  status.peak_utilisation_seam = utilisation_.seam;
-  status.ruptures = ruptures_;
-  status.rupture_time_s = rupture_time_s_;
-  status.rupture_position_m = rupture_position_;
 
-  Vec2 lower = Vec2::Constant(1e300), upper = -lower;
-  const auto extend = [&](const mpm::Particles<2>& particles, std::size_t p) {
-    const Vec2 x(particles.position[0][p], particles.position[1][p]);
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  };
+  Extent extent;
   for (const Body& body : model.bodies())
-    for (std::size_t p = 0; p < body.particles.size(); ++p)
-      extend(body.particles, p);
-  for (const ModelSheet& enclosing : model.sheets())
-    for (std::size_t p = 0; p < enclosing.sheet.nodes().size(); ++p)
-      extend(enclosing.sheet.nodes(), p);
+    extent.add(body.particles);
+  for (const ModelSheet& sheet : model.sheets())
+    extent.add(sheet.sheet.nodes());
   status.centroid_m = model.centroid();
-  status.width_m = upper[0] - lower[0];
-  status.height_m = upper[1] - lower[1];
+  status.width_m = extent.upper[0] - extent.lower[0];
+  status.height_m = extent.upper[1] - extent.lower[1];
+  for (std::size_t s = 0; s < watched_.size(); ++s)
+    if (model.sheets()[s].inside)
+      status.containers.push_back(container(model, s));
+  return status;
+}
+
+ContainerStatus ReleaseWatch::container(const Model& model, std::size_t sheet) const
+{
+  const ModelSheet& around = model.sheets()[sheet];
+  const Body& body = model.bodies()[*around.inside];
+  const Watched& watched = watched_[sheet];
+  ContainerStatus status;
+  status.name = around.name;
+  status.outcome = watched.outcome;
+  status.release_time_s = watched.release_time_s;
+  status.peak_tension_n_per_m = watched.peak;
+  status.peak_tension_time_s = watched.peak_time_s;
+  status.peak_tension_position_m = watched.peak_position;
+  status.current_tension_n_per_m = watched.current;
+  status.elongation_max = watched.elongation;
+  status.peak_utilisation_sheet = watched.used.sheet;
+  status.peak_utilisation_seam = watched.used.seam;
+  status.soil_volume_m2 = volume_of(body);
+  status.soil_volume_initial_m2 = watched.initial_volume;
+  status.episodes = watched.episodes;
+  Extent extent;
+  extent.add(body.particles);
+  extent.add(around.sheet.nodes());
+  status.width_m = extent.upper[0] - extent.lower[0];
+  status.height_m = extent.upper[1] - extent.lower[1];
+  double mass = 0.0;
+  for (std::size_t p = 0; p < body.particles.size(); ++p) {
+    status.centroid_m += body.own_mass(p) * body.position(p);
+    mass += body.own_mass(p);
+  }
+  status.centroid_m /= mass;
   return status;
 }
 

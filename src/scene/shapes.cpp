@@ -217,24 +217,35 @@ void jitter(double size, std::vector<Vec2>& points)
   }
 }
 
-geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene)
+namespace {
+
+geotextile::SheetLayout sheet_path(const GeotextileDescription& sheet, const SceneDescription& scene)
 {
   if (sheet.line)
-    return { sheet.line->points_m, sheet.line->closed };
+    return { sheet.line->points_m, sheet.line->closed, {} };
   if (sheet.circle)
     return { circle(sheet.circle->center_m, segments_around(sheet.circle->radius_m, sheet.segment_length_m),
                     sheet.circle->radius_m),
-             true };
-  return { outline(scene.bodies.at(sheet.encloses).shape, scene.hull, sheet.segment_length_m), true };
+             true,
+             {} };
+  return { outline(scene.bodies.at(sheet.encloses).shape, scene.hull, sheet.segment_length_m), true, {} };
+}
+
+}  // namespace
+
+geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene)
+{
+  const geotextile::SheetLayout path = sheet_path(sheet, scene);
+  if (!sheet.wrinkles)
+    return path;
+  const Wrinkles& wrinkles = *sheet.wrinkles;
+  return geotextile::fold(path,
+                          { wrinkles.region.lower_m, wrinkles.region.upper_m, wrinkles.number, wrinkles.amplitude_m });
 }
 
 double unstretched_length(const GeotextileDescription& sheet, const geotextile::SheetLayout& layout)
 {
-  double path = 0.0;
-  for (std::size_t i = 1; i < layout.points.size(); ++i)
-    path += (layout.points[i] - layout.points[i - 1]).norm();
-  if (layout.closed)
-    path += (layout.points.front() - layout.points.back()).norm();
+  const double path = layout.cloth_length();
   if (sheet.circumference_m)
     return *sheet.circumference_m;
   if (sheet.slack)

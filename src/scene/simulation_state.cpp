@@ -45,9 +45,12 @@ ChangingTimes changing_times(const SceneDescription& scene)
     if (sheet.inside_pressure)
       changes.add(sheet.inside_pressure->table);
   }
-  for (const auto& [name, body] : scene.bodies)
+  for (const auto& [name, body] : scene.bodies) {
     if (body.manufactured)
       changes.always();
+    if (body.held_until_s > 0.0)
+      changes.add_instant(body.held_until_s);
+  }
   return changes;
 }
 
@@ -224,7 +227,7 @@ bool Simulation::State::rest_on(Advance& result)
 double Simulation::State::step_length(double stable_dt) const
 {
   double dt = std::ldexp(stable_dt, -progress.halvings);
-  for (const double instant : { output_time_s(), sample_time_s(), scene.time.end_s }) {
+  for (const double instant : { output_time_s(), sample_time_s(), scene.time.end_s, model.next_start_s() }) {
     const double left = instant - progress.time_s;
     if (left > 0.0 && left < 2.0 * dt)
       dt = left > dt ? 0.5 * left : left;

@@ -196,6 +196,57 @@ void add_geotextile(Json& summary, const SceneDescription& scene, const StatusFr
   summary["geotextile_elongation_max"] = present ? Json(status.elongation_max) : Json();
 }
 
+Json release_time(double time_s)
+{
+  return time_s >= 0.0 ? Json(time_s) : Json();
+}
+
+/// What each container did, and its tension before and after others started.
+Json container(const ContainerStatus& status)
+{
+  const bool taut = status.peak_tension_n_per_m > 0.0;
+  Json one;
+  one["name"] = status.name;
+  one["outcome"] = to_string(status.outcome);
+  one["release_time_s"] = release_time(status.release_time_s);
+  one["peak_tension_n_per_m"] = status.peak_tension_n_per_m;
+  one["peak_tension_time_s"] = taut ? Json(status.peak_tension_time_s) : Json();
+  one["peak_tension_position_m"] = taut ? pair(status.peak_tension_position_m) : Json();
+  one["peak_utilisation"] = std::max(status.peak_utilisation_sheet, status.peak_utilisation_seam);
+  one["peak_utilisation_sheet"] = status.peak_utilisation_sheet;
+  one["peak_utilisation_seam"] = status.peak_utilisation_seam;
+  one["residual_tension_n_per_m"] = status.current_tension_n_per_m;
+  one["geotextile_elongation_max"] = status.elongation_max;
+  one["container_centroid_m"] = pair(status.centroid_m);
+  one["container_width_m"] = status.width_m;
+  one["container_height_m"] = status.height_m;
+  one["soil_volume_change"] = status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0;
+  one["episodes"] = Json::array();
+  for (const TensionEpisode& episode : status.episodes)
+    one["episodes"].push_back({ { "started", episode.started },
+                                { "start_s", episode.start_s },
+                                { "tension_before_n_per_m", episode.before_n_per_m },
+                                { "peak_tension_n_per_m", episode.peak_n_per_m },
+                                { "peak_tension_time_s", episode.peak_time_s } });
+  return one;
+}
+
+/// The list of containers; where there are several, what is one container's is a list at the top as well.
+void add_containers(Json& summary, const std::vector<ContainerStatus>& containers)
+{
+  Json all = Json::array();
+  for (const ContainerStatus& status : containers)
+    all.push_back(container(status));
+  if (all.size() > 1)
+    for (const auto& [key, value] : all[0].items())
+      if (summary.contains(key) && key != "soil_volume_change") {
+        summary[key] = Json::array();
+        for (const Json& one : all)
+          summary[key].push_back(one.at(key));
+      }
+  summary["containers"] = std::move(all);
+}
+
 }  // namespace
 
 std::string summary_json(const Simulation& simulation, double wall_time_s, int threads)
@@ -208,7 +259,7 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   Json summary;
   summary["scene"] = scene.name;
   summary["outcome"] = to_string(status.outcome);
-  summary["release_time_s"] = status.release_time_s >= 0.0 ? Json(status.release_time_s) : Json();
+  summary["release_time_s"] = release_time(status.release_time_s);
   add_geotextile(summary, scene, status);
   summary["container_centroid_m"] = pair(status.centroid_m);
   summary["container_width_m"] = status.width_m;
@@ -216,6 +267,7 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   summary["soil_volume_m2"] = status.soil_volume_m2;
   summary["soil_volume_change"] =
       status.soil_volume_initial_m2 > 0.0 ? Json(status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0) : Json();
+  add_containers(summary, status.containers);
   summary["energy"] = energy(simulation.energy());
   summary["water"] = water(simulation.water());
   summary["flags"] = flags(simulation.energy(), summary["soil_volume_change"]);

@@ -160,6 +160,7 @@ bodies:
     material: rubber
     shape:
       polygon: { vertices_m: [[-3, -5.5], [-2, -5.5], [-3, -5.3]] }
+    held_until_s: 0.5
 geotextiles:
   bag:
     encloses: fill
@@ -196,6 +197,16 @@ geotextiles:
     inside_pressure: { pressure_pa: 50, gradient_pa_per_m: 9810, level_m: -4.5, table: [[0, 0], [0.5, 1]] }
     velocity_field: cable
     stiffness_n_per_m: 1.0e5
+    mass_kg_per_m2: 0.5
+    computational_mass_kg_per_m2: 5
+    strength_n_per_m: 100e3
+    segment_length_m: 0.1
+  skin:
+    encloses: drop
+    wrinkles: { region: { lower_m: [-2.3, -4.6], upper_m: [-1.7, -4.2] }, number: 3, amplitude_m: 0.05 }
+    interface: frictional
+    interface_friction: 0.3
+    stiffness_n_per_m: 1.0e4
     mass_kg_per_m2: 0.5
     computational_mass_kg_per_m2: 5
     strength_n_per_m: 100e3

@@ -98,6 +98,8 @@ const Broken bodies[] = {
 };
 
 const Broken manufactured[] = {
+  { "held at first", "origin_m: [2.5, -4.5] }\n", "origin_m: [2.5, -4.5] }\n    held_until_s: 1\n",
+    "bodies.square.held_until_s", "1", "must be 0" },
   { "of another law", "law: neo_hookean", "law: hencky", "bodies.square.manufactured", "", "needs law neo_hookean" },
   { "under gravity", "gravity_m_per_s2: [0, 0]", "gravity_m_per_s2: [0, -1]", "bodies.square.manufactured", "",
     "gravity_m_per_s2 [0, 0]" },
@@ -174,6 +176,15 @@ const Broken sheets[] = {
     "exactly one of at_m, along" },
   { "seam off the grid", "at_m: [-0.5, -5]", "at_m: [-0.5, -50]", "geotextiles.bag.seams.left.at_m", "[-0.5, -50]",
     "within the grid" },
+  { "interface in a shared field", "circumference_m: 9",
+    "circumference_m: 9\n    interface: frictional\n    interface_friction: 0.3", "geotextiles.bag.interface",
+    "frictional", "needs the velocity field common for fill and this sheet alone" },
+  { "interface of a free sheet", "slack: 0.02", "slack: 0.02\n    interface: bonded", "geotextiles.cable.interface",
+    "bonded", "applies only to a sheet that encloses a body" },
+  { "friction of a bonded sheet", "    interface: frictional\n", "", "geotextiles.skin.interface_friction", "0.3",
+    "applies only to interface `frictional`" },
+  { "wrinkles upside down", "region: { lower_m: [-2.3, -4.6]", "region: { lower_m: [-2.3, -4.1]",
+    "geotextiles.skin.wrinkles.region.upper_m", "[-1.7, -4.2]", "not lie below lower_m = [-2.3, -4.1]" },
 };
 
 const Broken boundaries[] = {
@@ -240,7 +251,7 @@ const Broken probes[] = {
   { "cut off the grid", "from_m: [2, -4], to_m: [4, -4]", "from_m: [5, -4], to_m: [6, -4]", "probes.cut.section",
     "[5, -4] to [6, -4]", "must cut the grid" },
   { "no such sheet", "geotextile: { name: cable,", "geotextile: { name: rope,", "probes.pull.geotextile.name", "rope",
-    "must be a name in geotextiles: bag, cable, tube" },
+    "must be a name in geotextiles: bag, cable, skin, tube" },
   { "sheet's point off the grid", "at_m: [0, -5.2]", "at_m: [0, -7]", "probes.pull.geotextile.at_m", "[0, -7]",
     "within the grid" },
   { "no such surface", "surface: hull_port", "surface: hull_left", "probes.push.surface", "hull_left",

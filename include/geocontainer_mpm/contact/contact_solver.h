@@ -59,6 +59,10 @@ struct ContactSums {
   std::uint64_t skipped = 0;    ///< bodies not searched because nothing is near
 };
 
+/// Gauss-Seidel ends when no point's velocity changes by more than this in a sweep, or after so many sweeps.
+inline constexpr double velocity_tolerance = 1e-6;  // m/s
+inline constexpr int most_sweeps = 30;
+
 /// One for each velocity field: it remembers the impulses of its last step.
 class ContactSolver {
 public:
@@ -73,6 +77,20 @@ public:
 
   /// While held, what touches sticks, whatever the bodies' friction.
   void hold(bool held) { held_ = held; }
+
+  // The parts of solve(), in this order, for contacts that are solved together with those of other fields.
+  /// Finds what touches.
+  void begin(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
+             const std::vector<Anchor>& anchors, double dt, const mpm::Grid<2>& grid, ContactSums& sums);
+  /// Nodes of the grid that other contacts push: they count in the sums of end().
+  void also_touches(const std::vector<std::uint32_t>& nodes);
+  /// Impulses of the last step as a first guess. Before it no contact may have pushed the grid.
+  void guess(mpm::Grid<2>& grid);
+  /// Makes each contact right given all others, odd sweeps from the last to the first. Returns the largest change of a
+  /// point's velocity, m/s.
+  double sweep(int number, mpm::Grid<2>& grid);
+  void end(const std::vector<BoundaryBody>& bodies, double kick, const mpm::Grid<2>& grid, ContactImpulses& impulses,
+           ContactSums& sums);
 
 private:
   /// A point's share of the nodes around it.
@@ -100,12 +118,9 @@ private:
   Handle make_handle(const Vec2& point, const mpm::Grid<2>& grid) const;
   void collect(std::uint32_t index, const BoundaryBody& body, const ContactPoints& points, std::size_t memory,
                double dt, const mpm::Grid<2>& grid);
-  void collect_all(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
-                   const std::vector<Anchor>& anchors, double dt, const mpm::Grid<2>& grid, ContactSums& sums);
   void remember_untouched(const mpm::Grid<2>& grid);
   double relax(Contact& contact, mpm::Grid<2>& grid) const;
   double relax(Hold& hold, mpm::Grid<2>& grid) const;
-  void iterate(mpm::Grid<2>& grid);
   void push(const Handle& handle, const Vec2& impulse, mpm::Grid<2>& grid) const;
   void report(const std::vector<BoundaryBody>& bodies, ContactImpulses& impulses, ContactSums& sums);
 
@@ -116,7 +131,7 @@ private:
   std::vector<std::array<double, 2>> memory_;  ///< impulses of the last step per body and point: a good first guess
   std::vector<std::array<double, 2>> next_memory_;
   std::vector<Vec2> anchor_memory_;       ///< the same of the anchors
-  std::vector<std::uint32_t> touched_;    ///< grid nodes of all contacts, each once
+  std::vector<std::uint32_t> touched_;    ///< grid nodes of all contacts, each once from guess() on
   std::vector<Vec2> untouched_velocity_;  ///< theirs before contact
 };
 

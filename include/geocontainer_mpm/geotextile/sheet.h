@@ -21,16 +21,12 @@
 #include <vector>
 
 #include "geocontainer_mpm/geotextile/force_strain.h"
+#include "geocontainer_mpm/geotextile/layout.h"
 #include "geocontainer_mpm/mpm/frequency_bound.h"
+#include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/particles.h"
 
 namespace geocontainer_mpm::geotextile {
-
-/// Where a sheet is laid.
-struct SheetLayout {
-  std::vector<Vec2> points;  ///< at least 2 (closed: 3), m
-  bool closed = false;       ///< joined from the last point to the first
-};
 
 enum class Formulation { segments, membrane_points };
 
@@ -60,13 +56,16 @@ struct SheetLoad {
 /// an open one has a node more than segments.
 class Sheet {
 public:
-  /// Laid along the line, segments of equal length; the unstretched length is spread evenly, so that what exceeds the
-  /// line is slack everywhere (a shorter one is pre-tension).
+  /// Laid along the line, segments of equal length of cloth: shorter ones where the layout is fuller. What the
+  /// unstretched length exceeds the layout's cloth by is spread evenly, so that it is slack everywhere (a shorter one
+  /// is pre-tension). All rest lengths are equal.
   Sheet(const SheetLayout& layout, const SheetParameters& parameters);
 
   mpm::Particles<2>& nodes() { return nodes_; }
   const mpm::Particles<2>& nodes() const { return nodes_; }
   bool closed() const { return nodes_.size() == segments(); }
+  /// 1 if the right side of a closed sheet's segments looks outwards, -1 if their left side; open: 0.
+  double outwards() const { return outwards_; }
   std::size_t segments() const { return rest_length_.size(); }
   Vec2 node(std::size_t i) const { return { nodes_.position[0][i], nodes_.position[1][i] }; }
   /// Node at the end of a segment; the one at its start has the segment's own number.

@@ -2,6 +2,7 @@
 /// When what a scene prescribes over time changes.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -17,6 +18,11 @@ public:
     for (std::size_t k = 0; k + 1 < table.size(); ++k)
       if (table[k].value != table[k + 1].value)
         intervals_.push_back({ table[k].time_s, table[k + 1].time_s });
+  }
+  /// Something that happens at once.
+  void add_instant(double time_s)
+  {
+    intervals_.push_back({ time_s, std::nextafter(time_s, std::numeric_limits<double>::infinity()) });
   }
   void always() { intervals_.push_back({ 0.0, std::numeric_limits<double>::infinity() }); }
 

@@ -126,6 +126,9 @@ struct BodyDescription {
   InitialStress initial_stress = InitialStress::none;
   double k0 = 0.5;                                      ///< horizontal over vertical stress for k0 and gravity, [0, 2]
   std::optional<ManufacturedDescription> manufactured;  ///< needs law neo_hookean and no gravity
+  /// Until then the body and the sheet around it stay where they are, touch nothing and take no part, s, >= 0. Then
+  /// they start with the initial velocity: how a second container is dropped on the first.
+  double held_until_s = 0.0;
 };
 
 /// Axis-parallel rectangle that selects.
@@ -187,6 +190,20 @@ struct SeamDescription {
   std::optional<double> efficiency;  ///< its strength over the sheet's, (0, 1]; not given: the sheet's seam_efficiency
 };
 
+/// Cloth laid in folds along part of a sheet's path. A fold is smaller than what the grid resolves: what is modelled is
+/// the length of cloth in it and where it lies, not its shape.
+struct Wrinkles {
+  Region region;             ///< the parts of the path within it hold the folds
+  int number = 1;            ///< of folds, at even distances, >= 1
+  double amplitude_m = 0.0;  ///< height of a fold, two straight sides from the path up and back, m, > 0
+};
+
+/// How a sheet and the body that it encloses are bound to each other.
+enum class SheetInterface {
+  bonded,     ///< one velocity field: neither slips nor parts
+  frictional  ///< a field each, unilateral Coulomb contact between them
+};
+
 struct GeotextileDescription {
   // Exactly one of these three says where it is laid.
   std::string encloses;  ///< the body around whose outline the closed sheet is laid
@@ -213,6 +230,9 @@ struct GeotextileDescription {
   std::vector<geotextile::ForceStrainRow> force_strain_table;  ///< from (0, 0), ascending; empty: linear, J
   std::optional<double> rupture_strain;          ///< from which on a piece carries nothing, > 0; not given: never
   std::map<std::string, SeamDescription> seams;  ///< none: one of seam_efficiency may be anywhere
+  std::optional<Wrinkles> wrinkles;  ///< on top of slack that is spread evenly
+  SheetInterface interface = SheetInterface::bonded;  ///< of an enclosing sheet with its body
+  double interface_friction = 0.0;                    ///< Coulomb coefficient, tan(delta), of a frictional one, >= 0
 };
 
 /// One opening row of a table: time, s, and both angles, rad.
@@ -316,6 +336,8 @@ struct SceneDescription {
 
   /// Names of the velocity fields that bodies and free sheets move in, in order.
   std::vector<std::string> velocity_fields() const;
+  /// Whether a velocity field is that of one container: a body, the closed sheet around it, and nothing else.
+  bool is_container(const std::string& field) const;
 
   /// Throws InputError naming `source`, the dotted key, its value and what is allowed.
   void validate() const;

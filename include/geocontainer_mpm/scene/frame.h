@@ -82,6 +82,32 @@ struct WaterFrame {
   double dissipated_j_per_m = 0.0;             ///< since the start
 };
 
+/// A container's tension since another body started that had been held: what dropping that one on it does.
+struct TensionEpisode {
+  std::string started;  ///< name of the body that started
+  double start_s = 0.0;
+  double before_n_per_m = 0.0;  ///< largest gauge tension just before
+  double peak_n_per_m = 0.0;    ///< largest since, or until the next episode
+  double peak_time_s = 0.0;
+};
+
+/// One container: a body and the sheet around it.
+struct ContainerStatus {
+  std::string name;  ///< the sheet's
+  Outcome outcome = Outcome::none;
+  double release_time_s = -1.0;       ///< < 0 while not released
+  double peak_tension_n_per_m = 0.0;  ///< largest gauge tension so far
+  double peak_tension_time_s = 0.0;
+  Vec2 peak_tension_position_m = Vec2::Zero();
+  double current_tension_n_per_m = 0.0;
+  double elongation_max = 0.0;
+  double peak_utilisation_sheet = 0.0, peak_utilisation_seam = 0.0;
+  Vec2 centroid_m = Vec2::Zero();  ///< of the fill, by mass
+  double width_m = 0.0, height_m = 0.0;
+  double soil_volume_m2 = 0.0, soil_volume_initial_m2 = 0.0;
+  std::vector<TensionEpisode> episodes;
+};
+
 struct StatusFrame {
   Outcome outcome = Outcome::waiting;
   double release_time_s = -1.0;       ///< < 0 while not released
@@ -100,6 +126,7 @@ struct StatusFrame {
   std::size_t ruptures = 0;             ///< pieces of sheets that broke
   double rupture_time_s = -1.0;         ///< when the first did; < 0: none
   Vec2 rupture_position_m = Vec2::Zero();
+  std::vector<ContainerStatus> containers;  ///< in the order of their sheets
 };
 
 /// What one probe measured since the frame before.

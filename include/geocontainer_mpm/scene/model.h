@@ -11,6 +11,7 @@
 
 #include "geocontainer_mpm/contact/contact_solver.h"
 #include "geocontainer_mpm/contact/field_contact.h"
+#include "geocontainer_mpm/contact/sheet_contact.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
 #include "geocontainer_mpm/geotextile/strength.h"
 #include "geocontainer_mpm/mpm/frequency_bound.h"
@@ -36,6 +37,7 @@ struct Body {
   mpm::Moduli elastic, viscous;  ///< of the unstrained material; viscous: any multiple of it
   mpm::StressDamping damping;
   bool enclosed = false;  ///< a sheet is its surface
+  bool held = false;      ///< it has not started yet: stands where it is and takes no part
   std::shared_ptr<const Manufactured> manufactured;
   std::shared_ptr<const std::vector<Vec2>> start;  ///< positions at the start by id, m
   double density = 0.0;                            ///< of the material, kg/m^3
@@ -59,6 +61,8 @@ struct ModelSheet {
   std::size_t field = 0;
   geotextile::Sheet sheet;
   geotextile::Strength strength;
+  std::optional<std::size_t> inside = std::nullopt;  ///< the body that it encloses
+  bool held = false;                                 ///< as that body
 };
 
 /// A point of a body that is watched. It is carried by the particle nearest to it at the start: on the surface the
@@ -114,7 +118,8 @@ struct ModelState {
   std::vector<ModelSheet> sheets;
   std::vector<Traction> tractions;
   std::vector<Tracer> tracers;
-  std::vector<contact::ContactSolver> contact;  ///< per field
+  std::vector<contact::ContactSolver> contact;       ///< per field
+  std::vector<contact::SheetContact> sheet_contact;  ///< in the order of the model's pairs
   std::vector<BoundaryTotal> boundary_totals;
   WaterState water;
   Ledger ledger;
@@ -146,6 +151,8 @@ public:
   StepStatus step(const StepInput& input);
   /// While held, nothing that touches a boundary slides on it, whatever its friction.
   void hold(bool held);
+  /// When the next body starts that is held still, s; infinite for none.
+  double next_start_s() const;
   /// Takes all velocity away: the model sleeps, and wakes from standstill.
   void stop_motion();
   /// Ends the initial settling: the ledger, counters and plastic work start from here.
@@ -195,6 +202,21 @@ private:
     double friction;
     contact::FieldContact contact;
   };
+  /// A sheet that points touch from one of its sides: those of a body, or the nodes of another sheet.
+  struct SheetPair {
+    std::size_t sheet;
+    std::optional<std::size_t> body;  ///< its fill; or
+    std::size_t other_sheet = 0;      ///< another sheet
+    std::size_t point_field, sheet_field;
+  };
+  /// A body that starts late, with its sheet, and the velocities that it starts with.
+  struct LateStart {
+    double at_s;
+    std::size_t body;
+    std::optional<std::size_t> sheet;
+    mpm::Particles<2> body_start, sheet_start;  ///< as built
+    double weight_mass, inertia;                ///< kg/m
+  };
   /// An end of an open sheet that is held, or led.
   struct HeldEnd {
     std::size_t sheet, node;
@@ -203,11 +225,24 @@ private:
   };
 
   void build_fields(const SceneDescription& scene);
+  void add_field(const std::string& name, const SceneDescription& scene);
   void build_bodies(const SceneDescription& scene);
   void build_sheets(const SceneDescription& scene);
   void build_boundaries(const SceneDescription& scene);
   void build_loads(const SceneDescription& scene);
   std::size_t field_index(const std::string& name) const;
+  // model_containers.cpp: containers touch by their sheets, slip in them, and start when they are to
+  void build_contacts(const SceneDescription& scene);
+  void build_late_starts(const SceneDescription& scene);
+  std::optional<std::size_t> sheet_of_container(const SceneDescription& scene, const std::string& field) const;
+  void add_sheet_pair(const SheetPair& pair, contact::SheetSide side, double friction);
+  contact::ContactPoints points_of(const SheetPair& pair) const;
+  bool takes_part(const SheetPair& pair) const;
+  void solve_sheet_contact(const StepInput& input, double kick);
+  void take(const contact::ContactSums& sums);
+  void take_impulses(const Field& field);
+  void start_bodies(double time_s);
+  double held(double LateStart::*what) const;
 
   // model.cpp: one step
   Vec2 gravity_at(double time_s) const;
@@ -269,6 +304,8 @@ private:
   mpm::Sorter<2> sorter_;
   std::vector<Field> fields_;
   std::vector<FieldPair> pairs_;
+  std::vector<SheetPair> sheet_pairs_;
+  std::vector<LateStart> late_starts_;
   std::vector<contact::BoundaryBody> boundaries_;
   std::vector<std::size_t> traction_body_;  ///< per traction, the index of its body
   std::optional<Water> water_;

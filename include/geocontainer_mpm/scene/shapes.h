@@ -33,7 +33,7 @@ Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline,
 /// Moves every point by up to `size` m in each direction, at random and the same on every machine.
 void jitter(double size, std::vector<Vec2>& points);
 
-/// Path of a sheet: around its body, along its line or its circle.
+/// Path of a sheet: around its body, along its line or its circle; with the cloth of its wrinkles.
 geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene);
 /// Its length without tension, m, from whatever the description says of it.
 double unstretched_length(const GeotextileDescription& sheet, const geotextile::SheetLayout& layout);
