@@ -228,9 +228,9 @@ struct GeotextileDescription {
   double gauge_length_m = 0.5;  ///< reported tension is the mean over this length, >= segment length
   geotextile::Formulation formulation = geotextile::Formulation::segments;
   std::vector<geotextile::ForceStrainRow> force_strain_table;  ///< from (0, 0), ascending; empty: linear, J
-  std::optional<double> rupture_strain;          ///< from which on a piece carries nothing, > 0; not given: never
-  std::map<std::string, SeamDescription> seams;  ///< none: one of seam_efficiency may be anywhere
-  std::optional<Wrinkles> wrinkles;  ///< on top of slack that is spread evenly
+  std::optional<double> rupture_strain;               ///< from which on a piece carries nothing, > 0; not given: never
+  std::map<std::string, SeamDescription> seams;       ///< none: one of seam_efficiency may be anywhere
+  std::optional<Wrinkles> wrinkles;                   ///< on top of slack that is spread evenly
   SheetInterface interface = SheetInterface::bonded;  ///< of an enclosing sheet with its body
   double interface_friction = 0.0;                    ///< Coulomb coefficient, tan(delta), of a frictional one, >= 0
 };
