@@ -125,7 +125,6 @@ private:
   double rounds(bool viscous);
   /// S_i / m_i from S_i; p times that where the method feels p.
   void divide_by_mass(std::vector<double>& nodal);
-  template <Shape shape>
   void keep_what_particles_hold(std::vector<double>& nodal);
   /// Calls `visit(number, element)`.
   template <class Visitor>
