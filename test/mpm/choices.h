@@ -42,13 +42,13 @@ Vec<Dim> random_point(Chance& chance, const Grid<Dim>& grid)
   return x;
 }
 
-/// Edges from a fifth of a cell to more than one, which counts as one.
+/// Edges from a third of a cell to more than one, which counts as one.
 template <int Dim>
 Vec<Dim> random_box(Chance& chance, const Grid<Dim>& grid)
 {
   Vec<Dim> box;
   for (int d = 0; d < Dim; ++d)
-    box[d] = chance(0.2, 1.3) * grid.dx();
+    box[d] = chance(0.3, 1.3) * grid.dx();
   return box;
 }
 
