@@ -201,7 +201,7 @@ std::string look_at_energy(const scene::EnergyFrame& e, const Start& start, cons
   const double gained = e.unbalanced - e.dissipated_transfer;
   if (gained > (smoothed ? most_gained_smoothed : most_gained) * scale)
     return fmt::format("{:.3g} J/m came from nowhere, of {:.3g} that there were or that changed hands", gained, scale);
-  const bool closes = method.update == mpm::UpdateOrder::usl && method.shape == mpm::Shape::bspline2;
+  const bool closes = method.update == mpm::UpdateOrder::usl && method.shape != mpm::Shape::linear_simplex;
   if (closes && e.unbalanced < -most_lost * scale)
     return fmt::format("{:.3g} J/m went nowhere, of {:.3g} that there were or that changed hands", -e.unbalanced,
                        scale);

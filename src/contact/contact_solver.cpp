@@ -38,24 +38,19 @@ Vec2 velocity_of(const Handle& handle, const mpm::Grid<2>& grid)
 
 }  // namespace
 
-ContactSolver::Handle ContactSolver::make_handle(const Vec2& point, const mpm::Grid<2>& grid) const
+template <class Reach>
+ContactSolver::Handle ContactSolver::make_handle(const Reach& reach, const mpm::Grid<2>& grid)
 {
   Handle handle;
-  const auto take = [&](const auto& reach) {
-    handle.count = static_cast<std::size_t>(reach.count);
-    handle.compliance = 0.0;
-    for (std::size_t k = 0; k < handle.count; ++k) {
-      handle.node[k] = reach.node[k];
-      const double mass = grid.nodes()[reach.node[k]][mass_slot];
-      handle.weight[k] = mass > 0.0 ? reach.weight[k] : 0.0;
-      if (mass > 0.0)
-        handle.compliance += handle.weight[k] * handle.weight[k] / mass;
-    }
-  };
-  if (shape_ == mpm::Shape::bspline2)
-    take(mpm::bspline_reach<2>(point, grid));
-  else
-    take(mpm::simplex_reach<2>(point, grid));
+  handle.count = static_cast<std::size_t>(reach.count);
+  handle.compliance = 0.0;
+  for (std::size_t k = 0; k < handle.count; ++k) {
+    handle.node[k] = reach.node[k];
+    const double mass = grid.nodes()[reach.node[k]][mass_slot];
+    handle.weight[k] = mass > 0.0 ? reach.weight[k] : 0.0;
+    if (mass > 0.0)
+      handle.compliance += handle.weight[k] * handle.weight[k] / mass;
+  }
   return handle;
 }
 
@@ -74,7 +69,8 @@ void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const
     if (!(gap < reach))
       continue;
     Contact contact;
-    contact.handle = make_handle(point, grid);
+    mpm::visit_reach_of<2>(shape_, particles, p, grid,
+                           [&](const auto& near) { contact.handle = make_handle(near, grid); });
     contact.normal = surface.normal;
     contact.approach = least_velocity(gap, dt);
     contact.body = index;
@@ -110,8 +106,8 @@ void ContactSolver::begin(const std::vector<BoundaryBody>& bodies, const std::ve
   anchor_memory_.resize(anchors.size(), Vec2::Zero());
   holds_.clear();
   for (std::size_t a = 0; a < anchors.size(); ++a)
-    holds_.push_back(
-        { make_handle(anchors[a].point, grid), (anchors[a].target - anchors[a].point) / dt, anchor_memory_[a] });
+    holds_.push_back({ make_handle(mpm::reach_of<2>(shape_, anchors[a].point, grid), grid),
+                       (anchors[a].target - anchors[a].point) / dt, anchor_memory_[a] });
 }
 
 void ContactSolver::remember_untouched(const mpm::Grid<2>& grid)

@@ -89,10 +89,8 @@ void FieldContact::gather(std::size_t side, const ContactField& field)
       const Vec2 x(particles.position[0][p], particles.position[1][p]);
       if ((x.array() < lower_.array()).any() || (x.array() > upper_.array()).any())
         continue;
-      if (shape_ == mpm::Shape::bspline2)
-        add(side, set, p, x, mpm::bspline_reach<2>(x, *field.grid));
-      else
-        add(side, set, p, x, mpm::simplex_reach<2>(x, *field.grid));
+      mpm::visit_reach_of<2>(shape_, particles, p, *field.grid,
+                             [&](const auto& reach) { add(side, set, p, x, reach); });
     }
   }
 }

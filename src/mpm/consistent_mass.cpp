@@ -14,7 +14,7 @@ constexpr std::size_t block_size = 256;
 
 int radius_of(Shape shape)
 {
-  return shape == Shape::bspline2 ? 2 : 1;
+  return shape == Shape::linear_simplex ? 1 : 2;
 }
 
 /// Place of a node in a box of 2 * radius + 1 neighbours a direction, last index fastest.
@@ -35,10 +35,10 @@ struct Spread {
 };
 
 template <int Dim>
-Spread<Dim> spread_of(Shape shape, const Vec<Dim>& x, const Grid<Dim>& grid)
+Spread<Dim> spread_of(Shape shape, const Particles<Dim>& particles, std::size_t p, const Grid<Dim>& grid)
 {
   Spread<Dim> s;
-  s.reach = reach_of<Dim>(shape, x, grid);
+  s.reach = reach_of<Dim>(shape, particles, p, Vec<Dim>::Zero(), grid);
   const int radius = radius_of(shape);
   for (std::size_t k = 0; k < static_cast<std::size_t>(s.reach.count); ++k) {
     // Back from the storage index: differences of codes are what counts, so any common corner will do.
@@ -121,7 +121,7 @@ void ConsistentMass<Dim>::find_faces(const Grid<Dim>& grid)
 template <int Dim>
 void ConsistentMass<Dim>::add_particle(const Particles<Dim>& particles, std::size_t p, const Grid<Dim>& grid)
 {
-  const Spread<Dim> s = spread_of<Dim>(shape_, position_of(particles, p), grid);
+  const Spread<Dim> s = spread_of<Dim>(shape_, particles, p, grid);
   const double mass = (1.0 - lumped_part) * particles.mass[p];
   const auto middle = static_cast<std::ptrdiff_t>(width_ / 2);
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.reach.count); ++i) {

@@ -20,20 +20,17 @@ using ShapeTag = std::integral_constant<Shape, shape>;
 /// Gradients of one particle's weights, component by component, so that loops over the nodes become vector code.
 template <int Dim, Shape shape>
 struct Gradients {
-  static constexpr std::size_t count = shape == Shape::bspline2 ? most_nodes<Dim> : Dim + 1;
+  static constexpr std::size_t count = shape == Shape::linear_simplex ? Dim + 1 : most_nodes<Dim>;
   std::array<std::uint32_t, count> node;
   std::array<std::array<double, count>, Dim> component;  ///< 1/m
   std::array<double, count> size;                        ///< sum of the components' magnitudes, 1/m
 };
 
-template <int Dim>
-Gradients<Dim, Shape::bspline2> gradients(const Vec<Dim>& x, const Grid<Dim>& grid, ShapeTag<Shape::bspline2>)
+template <int Dim, Shape shape>
+Gradients<Dim, shape> gradients(const Particles<Dim>& particles, std::size_t p, const Grid<Dim>& grid, ShapeTag<shape>)
 {
-  std::array<double, Dim> point;
-  for (std::size_t d = 0; d < Dim; ++d)
-    point[d] = x[static_cast<Eigen::Index>(d)];
-  const Stencil<Dim> s = make_stencil<Dim>(point, grid.origin(), grid.dx(), grid.inverse_dx());
-  Gradients<Dim, Shape::bspline2> g;
+  const Stencil<Dim> s = stencil_of<Dim, shape>(particles, p, grid);
+  Gradients<Dim, shape> g;
   std::size_t k = 0;
   if constexpr (Dim == 2) {
     std::size_t row = grid.index(s.base);
@@ -67,9 +64,12 @@ Gradients<Dim, Shape::bspline2> gradients(const Vec<Dim>& x, const Grid<Dim>& gr
 }
 
 template <int Dim>
-Gradients<Dim, Shape::linear_simplex> gradients(const Vec<Dim>& x, const Grid<Dim>& grid,
+Gradients<Dim, Shape::linear_simplex> gradients(const Particles<Dim>& particles, std::size_t p, const Grid<Dim>& grid,
                                                 ShapeTag<Shape::linear_simplex>)
 {
+  Vec<Dim> x;
+  for (std::size_t d = 0; d < Dim; ++d)
+    x[static_cast<Eigen::Index>(d)] = particles.position[d][p];
   const Reach<Dim, Dim + 1> reach = simplex_reach<Dim>(x, grid);
   Gradients<Dim, Shape::linear_simplex> g;
   g.node = reach.node;
@@ -81,15 +81,6 @@ Gradients<Dim, Shape::linear_simplex> gradients(const Vec<Dim>& x, const Grid<Di
     }
   }
   return g;
-}
-
-template <int Dim>
-Vec<Dim> position(const Particles<Dim>& particles, std::size_t p)
-{
-  Vec<Dim> x;
-  for (std::size_t d = 0; d < Dim; ++d)
-    x[static_cast<Eigen::Index>(d)] = particles.position[d][p];
-  return x;
 }
 
 /// The largest eigenvalue of D^(1/2) T D^(1/2) from above, for a matrix A with these invariants; see the header. Its
@@ -264,14 +255,20 @@ void FrequencyBound<Dim>::for_each_element(bool viscous, Visitor&& visit) const
     const Particles<Dim>& particles = *body.particles;
     const auto look = [&](auto shape) {
       for (std::size_t p = 0; p < particles.size(); ++p, ++number)
-        visit(number,
-              ParticleElement<Dim, decltype(shape)::value>{ gradients<Dim>(position(particles, p), *grid_, shape),
-                                                            moduli, particles.volume[p], grid_->inverse_dx() });
+        visit(number, ParticleElement<Dim, decltype(shape)::value>{ gradients<Dim>(particles, p, *grid_, shape), moduli,
+                                                                    particles.volume[p], grid_->inverse_dx() });
     };
-    if (method_.shape == Shape::bspline2)
-      look(ShapeTag<Shape::bspline2>());
-    else
-      look(ShapeTag<Shape::linear_simplex>());
+    switch (shape_of(method_.shape, particles)) {
+      case Shape::bspline2:
+        look(ShapeTag<Shape::bspline2>());
+        break;
+      case Shape::linear_simplex:
+        look(ShapeTag<Shape::linear_simplex>());
+        break;
+      case Shape::gimp:
+        look(ShapeTag<Shape::gimp>());
+        break;
+    }
   }
   if (viscous)  // sheets are elastic
     return;
@@ -298,33 +295,23 @@ void FrequencyBound<Dim>::divide_by_mass(std::vector<double>& nodal)
     const double mass = grid_->nodes()[i][Grid<Dim>::mass_slot];
     nodal[i] = mass > massless ? nodal[i] / mass : 0.0;
   });
-  if (!feels_what_particles_hold(method_))
-    return;
-  if (method_.shape == Shape::bspline2)
-    keep_what_particles_hold<Shape::bspline2>(nodal);
-  else
-    keep_what_particles_hold<Shape::linear_simplex>(nodal);
+  if (feels_what_particles_hold(method_))
+    keep_what_particles_hold(nodal);
 }
 
 template <int Dim>
-template <Shape shape>
 void FrequencyBound<Dim>::keep_what_particles_hold(std::vector<double>& nodal)
 {
   for_each_node([&](std::size_t i) { held_[i] = 0.0; });
   for (const Body& body : bodies_)
-    for (std::size_t p = 0; p < body.particles->size(); ++p) {
-      const auto reach = [&] {
-        if constexpr (shape == Shape::bspline2)
-          return bspline_reach<Dim>(position(*body.particles, p), *grid_);
-        else
-          return simplex_reach<Dim>(position(*body.particles, p), *grid_);
-      }();
-      double mean = 0.0;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
-        mean += reach.weight[k] * nodal[reach.node[k]];
-      for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
-        held_[reach.node[k]] += body.particles->mass[p] * reach.weight[k] * mean;
-    }
+    for (std::size_t p = 0; p < body.particles->size(); ++p)
+      visit_reach_of<Dim>(method_.shape, *body.particles, p, *grid_, [&](const auto& reach) {
+        double mean = 0.0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
+          mean += reach.weight[k] * nodal[reach.node[k]];
+        for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
+          held_[reach.node[k]] += body.particles->mass[p] * reach.weight[k] * mean;
+      });
   for_each_node([&](std::size_t i) {
     const double mass = grid_->nodes()[i][Grid<Dim>::mass_slot];
     nodal[i] = mass > massless ? held_[i] / mass : 0.0;

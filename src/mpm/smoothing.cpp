@@ -170,7 +170,7 @@ void smooth_gradients(const Discretisation& method, const Strips& strips, Partic
     return;
   if (method.smoothing == Smoothing::cell_average)
     average_gradient(strips, particles, grid, team);
-  else if (method.shape == Shape::bspline2)
+  else if (method.shape != Shape::linear_simplex)
     smooth_volume_rate<Dim, Shape::bspline2>(strips, particles, grid, team);
   else
     smooth_volume_rate<Dim, Shape::linear_simplex>(strips, particles, grid, team);

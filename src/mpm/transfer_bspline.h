@@ -1,29 +1,20 @@
 #pragma once
-/// Scatter and gather of one particle with quadratic B-splines. The sums are separable: along the fastest direction
-/// first.
+/// Scatter and gather of one particle with quadratic B-splines, or with gimp, which has the same nodes. The sums are
+/// separable: along the fastest direction first.
 
-#include "geocontainer_mpm/mpm/bspline.h"
+#include "geocontainer_mpm/mpm/reach.h"
 #include "transfer_load.h"
 
 namespace geocontainer_mpm::mpm {
 
-template <int Dim>
-GEOCONTAINER_MPM_INLINE Stencil<Dim> stencil_of(const Particles<Dim>& particles, std::size_t p, const Grid<Dim>& grid)
-{
-  std::array<double, Dim> x;
-  for (std::size_t d = 0; d < Dim; ++d)
-    x[d] = particles.position[d][p];
-  return make_stencil<Dim>(x, grid.origin(), grid.dx(), grid.inverse_dx());
-}
-
-template <int Dim, Part part, bool affine, Push push>
+template <int Dim, Shape shape, Part part, bool affine, Push push>
 GEOCONTAINER_MPM_INLINE void scatter_bspline(const Particles<Dim>& particles, std::size_t p, const Vec<Dim>& gravity,
                                              const Extra& extra, Grid<Dim>& grid)
 {
   constexpr bool has_momentum = part != Part::force, has_force = part != Part::momentum;
   constexpr bool has_stress = has_force && (push == Push::stress || push == Push::extra);
-  const Stencil<Dim> s = stencil_of(particles, p, grid);
-  const Load<Dim> load = load_of<Dim, Shape::bspline2, part, affine, push>(particles, p, gravity, extra, grid);
+  const Stencil<Dim> s = stencil_of<Dim, shape>(particles, p, grid);
+  const Load<Dim> load = load_of<Dim, shape, part, affine, push>(particles, p, gravity, extra, grid);
 
   // One row of three nodes along the fastest direction, given the product of the slower directions' factors.
   const auto add_row = [&](std::size_t first, Quad m0, Quad m1, ForceVector<Dim> f0, ForceVector<Dim> f1) {
@@ -107,14 +98,14 @@ GEOCONTAINER_MPM_INLINE ForceVector<Dim> kept_at(const Stencil<Dim>& s, const Gr
   return velocity;
 }
 
-template <int Dim, Gather what, Transfer transfer>
+template <int Dim, Shape shape, Gather what, Transfer transfer>
 GEOCONTAINER_MPM_INLINE void gather_bspline(const Grid<Dim>& grid, double dt, double flip_fraction,
                                             Particles<Dim>& particles, std::size_t p)
 {
   constexpr bool wants_velocity = what == Gather::all || what == Gather::motion || what == Gather::velocity;
   constexpr bool wants_moment = wants_velocity && transfer == Transfer::apic;
   constexpr bool wants_gradient = what == Gather::all || what == Gather::gradient;
-  const Stencil<Dim> s = stencil_of(particles, p, grid);
+  const Stencil<Dim> s = stencil_of<Dim, shape>(particles, p, grid);
   if constexpr (what == Gather::position) {
     move<Dim, what>(kept_at(s, grid), dt, particles, p);
     return;
@@ -170,11 +161,13 @@ GEOCONTAINER_MPM_INLINE void gather_bspline(const Grid<Dim>& grid, double dt, do
     for (std::size_t i = 0; i < Dim; ++i)
       particles.velocity[i][p] = velocity[i];
   move<Dim, what>(velocity, dt, particles, p);
-  const double inverse_inertia = 1.0 / bspline_inertia(grid.dx());
+  std::array<double, Dim> inverse_inertia;
+  for (std::size_t d = 0; d < Dim; ++d)
+    inverse_inertia[d] = 1.0 / (shape == Shape::bspline2 ? bspline_inertia(grid.dx()) : box_inertia<Dim>(s, d));
   for (std::size_t i = 0; i < Dim; ++i)
     for (std::size_t j = 0; j < Dim; ++j) {
       if constexpr (wants_moment)
-        particles.affine[i * Dim + j][p] = inverse_inertia * moment[j][i];
+        particles.affine[i * Dim + j][p] = inverse_inertia[j] * moment[j][i];
       if constexpr (wants_gradient)
         particles.gradient[i * Dim + j][p] = gradient[j][i];
     }

@@ -124,7 +124,8 @@ GEOCONTAINER_MPM_INLINE Load<Dim> load_of(const Particles<Dim>& particles, std::
     std::array<double, in_plane<Dim>> changed;
     if constexpr (push == Push::extra) {
       if (extra.elements)
-        changed = smoothed_stress<Dim, shape>(extra.smoothing, particles, p, extra.damping, extra.elements, grid);
+        changed = smoothed_stress<Dim, shape_of_points(shape)>(extra.smoothing, particles, p, extra.damping,
+                                                               extra.elements, grid);
       else
         changed = damped_stress<Dim>(particles, p, extra.damping);
     }

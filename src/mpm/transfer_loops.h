@@ -1,6 +1,6 @@
 #pragma once
 /// The loops over particles of one shape: every other choice is made here, outside them. Instantiated for bspline2 in
-/// transfer_bspline.cpp and for linear_simplex in transfer_simplex.cpp.
+/// transfer_bspline.cpp, for linear_simplex in transfer_simplex.cpp and for gimp in transfer_gimp.cpp.
 
 #include "transfer_bspline.h"
 #include "transfer_simplex.h"
@@ -21,8 +21,8 @@ template <int Dim, Shape shape, Part part, bool affine, Push push>
 GEOCONTAINER_MPM_INLINE void scatter_one(const Particles<Dim>& particles, std::size_t p, const Vec<Dim>& gravity,
                                          const Extra& extra, Grid<Dim>& grid)
 {
-  if constexpr (shape == Shape::bspline2)
-    scatter_bspline<Dim, part, affine, push>(particles, p, gravity, extra, grid);
+  if constexpr (shape != Shape::linear_simplex)
+    scatter_bspline<Dim, shape, part, affine, push>(particles, p, gravity, extra, grid);
   else
     scatter_simplex<Dim, part, affine, push>(particles, p, gravity, extra, grid);
 }
@@ -61,7 +61,8 @@ void TransferLoops<Dim, shape>::body(const Discretisation& discretisation, const
     return;
   }
   const Extra extra{ terms.external_force, terms.damping, smoothing,
-                     smoothed ? smooth_stress<Dim, shape>(smoothing, particles, strips, terms.damping, grid, team)
+                     smoothed ? smooth_stress<Dim, shape_of_points(shape)>(smoothing, particles, strips, terms.damping,
+                                                                           grid, team)
                               : nullptr };
   scatter(!all     ? scatter_strips<Dim, shape, Part::force, false, Push::extra>
           : affine ? scatter_strips<Dim, shape, Part::all, true, Push::extra>
@@ -108,8 +109,8 @@ void gather_range(const Grid<Dim>& grid, double dt, double flip_fraction, Partic
                   std::size_t end)
 {
   for (std::size_t p = begin; p < end; ++p)
-    if constexpr (shape == Shape::bspline2)
-      gather_bspline<Dim, what, transfer>(grid, dt, flip_fraction, particles, p);
+    if constexpr (shape != Shape::linear_simplex)
+      gather_bspline<Dim, shape, what, transfer>(grid, dt, flip_fraction, particles, p);
     else
       gather_simplex<Dim, what, transfer>(grid, dt, flip_fraction, particles, p);
 }

@@ -82,8 +82,7 @@ Vec2 Traction::add_to(mpm::Grid<2>& grid, mpm::Shape shape, const mpm::Particles
     const Vec2 f = force(piece, factor);
     // A piece that a deformation gone wild has carried far acts a cell away: the grid's storage ends two cells outside.
     const double far = piece.offset.norm() / grid.dx();
-    mpm::add_surface_force<2>(shape, Vec2(particles.position[0][p], particles.position[1][p]),
-                              piece.offset / std::max(1.0, far), f, grid);
+    mpm::add_surface_force<2>(shape, particles, p, piece.offset / std::max(1.0, far), f, grid);
     sum += f;
   }
   return sum;

@@ -48,7 +48,7 @@ void describe(V& v, NumericsDescription& n)
   using mpm::Transfer;
   v.value({ "shape", optional, "",
             "shape functions. `bspline2`: quadratic B-splines; `linear_simplex`: three-node triangles, two a cell, the "
-            "founding paper's" },
+            "founding paper's; `gimp`: linear ones averaged over the particle's box, which follows its stretch" },
           n.method.shape);
   v.value({ "transfer", optional, "",
             "between particles and grid. `apic`: affine, not with `linear_simplex`; `flip`: particles take the grid's "

@@ -43,9 +43,10 @@ struct Words<SheetInterface> {
 };
 template <>
 struct Words<mpm::Shape> {
-  static constexpr std::array<std::pair<mpm::Shape, const char*>, 2> list{
-    { { mpm::Shape::bspline2, "bspline2" }, { mpm::Shape::linear_simplex, "linear_simplex" } }
-  };
+  static constexpr std::array<std::pair<mpm::Shape, const char*>, 3> list{ { { mpm::Shape::bspline2, "bspline2" },
+                                                                             { mpm::Shape::linear_simplex,
+                                                                               "linear_simplex" },
+                                                                             { mpm::Shape::gimp, "gimp" } } };
 };
 template <>
 struct Words<mpm::Transfer> {

@@ -142,7 +142,7 @@ StepStatus Model::step(const StepInput& input)
 /// element by so much in a step that power times time says nothing about work.
 bool Model::books_transferred_work() const
 {
-  return method_.update == UpdateOrder::usl && method_.shape == mpm::Shape::bspline2;
+  return method_.update == UpdateOrder::usl && method_.shape != mpm::Shape::linear_simplex;
 }
 
 void Model::apply_forces(const StepInput& input, double kick)

@@ -253,6 +253,7 @@ std::uint64_t Model::digest() const
     add_all(particles.affine);
     add_all(particles.stress);
     add_all(particles.deformation);
+    add_all(particles.box);
     add(particles.volume);
     add(particles.separated_strain);
   };

@@ -208,6 +208,11 @@ void Model::build_bodies(const SceneDescription& scene)
     place(sampling, body.density, particles);
     if (body.law->needs_deformation())
       particles.use_deformation();
+    if (method_.shape == mpm::Shape::gimp) {
+      particles.use_boxes();
+      for (std::size_t d = 0; d < 2 && sampling.tile; ++d)
+        particles.box[d].assign(particles.size(), (*sampling.tile)[static_cast<Eigen::Index>(d)]);
+    }
     body.row = particles.id;
     body.start = std::make_shared<const std::vector<Vec2>>(sampling.points);
     set_velocity(description.initial_velocity_m_per_s, description.initial_spin_rad_per_s,

@@ -108,7 +108,7 @@ void Model::survey()
 /// vanish within a step, and the frequencies there grow with it.
 bool Model::bound_holds() const
 {
-  const bool lasts = method_.shape == mpm::Shape::bspline2 || mpm::feels_what_particles_hold(method_);
+  const bool lasts = method_.shape != mpm::Shape::linear_simplex || mpm::feels_what_particles_hold(method_);
   return lasts && now_.bound_known && now_.steps_since_bound < bound_valid_steps &&
          now_.travel_since_bound <= bound_valid_cells * fields_.front().grid.dx() &&
          active_segments() <= now_.bound_active_segments;

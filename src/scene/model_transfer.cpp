@@ -163,6 +163,8 @@ void Model::move_particles(const StepInput& input)
     gather_bodies(Gather::motion, dt);
     gather_sheets(method_.update == UpdateOrder::usl ? Gather::all : Gather::motion, dt);
   }
+  for (Body& body : now_.bodies)
+    body.particles.stretch_boxes(dt);
   move_tracers(dt);
   for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
     const Body& body = now_.bodies[traction_body_[t]];

@@ -164,6 +164,9 @@ Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline,
         result.points.push_back(rotate(x, shape.box->pivot_m, shape.box->rotation_deg));
       }
     result.volumes.assign(result.points.size(), size[0] * size[1] / static_cast<double>(result.points.size()));
+    const Vec2 along_y = rotate(Vec2(size[0] / columns, 0.0), Vec2::Zero(), shape.box->rotation_deg),
+               along_z = rotate(Vec2(0.0, size[1] / rows), Vec2::Zero(), shape.box->rotation_deg);
+    result.tile = Vec2(std::hypot(along_y[0], along_z[0]), std::hypot(along_y[1], along_z[1]));
     return result;
   }
   if (shape.disc)

@@ -17,7 +17,7 @@ struct Kind {
   static constexpr Shape shape = which;
 };
 using Kinds = ::testing::Types<Kind<2, Shape::bspline2>, Kind<3, Shape::bspline2>, Kind<2, Shape::linear_simplex>,
-                               Kind<3, Shape::linear_simplex>>;
+                               Kind<3, Shape::linear_simplex>, Kind<2, Shape::gimp>, Kind<3, Shape::gimp>>;
 
 inline Discretisation choice_of(Shape shape, Transfer transfer, double flip_fraction = 1.0)
 {
@@ -42,6 +42,35 @@ Vec<Dim> random_point(Chance& chance, const Grid<Dim>& grid)
   return x;
 }
 
+/// Edges from a third of a cell to more than one, which counts as one.
+template <int Dim>
+Vec<Dim> random_box(Chance& chance, const Grid<Dim>& grid)
+{
+  Vec<Dim> box;
+  for (int d = 0; d < Dim; ++d)
+    box[d] = chance(0.3, 1.3) * grid.dx();
+  return box;
+}
+
+/// The cloud, with boxes of any size where the shape has them.
+template <int Dim>
+Particles<Dim> boxed(Chance& chance, Shape shape, const Grid<Dim>& grid, Particles<Dim> cloud)
+{
+  if (shape == Shape::gimp) {
+    cloud.use_boxes();
+    for (std::size_t p = 0; p < cloud.size(); ++p)
+      set_vector<Dim>(cloud.box, p, random_box(chance, grid));
+  }
+  return cloud;
+}
+
+/// Box of a row; of points, nothing.
+template <int Dim>
+Vec<Dim> box_of(const Particles<Dim>& particles, std::size_t p)
+{
+  return particles.box[0].empty() ? Vec<Dim>::Zero() : vector_at<Dim>(particles.box, p);
+}
+
 /// Indices of the node in storage place `i`.
 template <int Dim>
 std::array<int, Dim> node_at(const Grid<Dim>& grid, std::size_t i)
@@ -53,19 +82,26 @@ std::array<int, Dim> node_at(const Grid<Dim>& grid, std::size_t i)
 }
 
 template <int Dim, class Visitor>
-void visit_reach(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x, Visitor&& visit)
+void visit_reach(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x, const Vec<Dim>& box, Visitor&& visit)
 {
-  const AnyReach<Dim> reach = reach_of<Dim>(shape, x, grid);
+  Particles<Dim> one;
+  one.resize(1);
+  set_vector<Dim>(one.position, 0, x);
+  if (shape == Shape::gimp && !box.isZero(0.0)) {
+    one.use_boxes();
+    set_vector<Dim>(one.box, 0, box);
+  }
+  const AnyReach<Dim> reach = reach_of<Dim>(shape, one, 0, Vec<Dim>::Zero(), grid);
   for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
     visit(static_cast<std::size_t>(reach.node[k]), reach.weight[k], reach.gradient[k]);
 }
 
 /// sum w r r^T about the point: the inertia of its affine motion.
 template <int Dim>
-Mat<Dim> inertia_of(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x)
+Mat<Dim> inertia_of(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x, const Vec<Dim>& box)
 {
   Mat<Dim> sum = Mat<Dim>::Zero();
-  visit_reach<Dim>(shape, grid, x, [&](std::size_t i, double w, const Vec<Dim>&) {
+  visit_reach<Dim>(shape, grid, x, box, [&](std::size_t i, double w, const Vec<Dim>&) {
     const Vec<Dim> r = grid.coordinate(node_at(grid, i)) - x;
     sum += w * r * r.transpose();
   });
@@ -73,10 +109,11 @@ Mat<Dim> inertia_of(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x)
 }
 
 template <int Dim>
-Vec<Dim> velocity_at(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x)
+Vec<Dim> velocity_at(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x, const Vec<Dim>& box)
 {
   Vec<Dim> sum = Vec<Dim>::Zero();
-  visit_reach<Dim>(shape, grid, x, [&](std::size_t i, double w, const Vec<Dim>&) { sum += w * node_vector(grid, i); });
+  visit_reach<Dim>(shape, grid, x, box,
+                   [&](std::size_t i, double w, const Vec<Dim>&) { sum += w * node_vector(grid, i); });
   return sum;
 }
 

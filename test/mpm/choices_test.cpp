@@ -31,8 +31,8 @@ Motion<Dim> of_particles(Shape shape, const Particles<Dim>& particles, const std
     const Vec<Dim> v = vector_at<Dim>(particles.velocity, p), x = vector_at<Dim>(position, p);
     sum.mass += m;
     sum.momentum += m * v;
-    sum.moment +=
-        m * x * v.transpose() + m * inertia_of<Dim>(shape, grid, x) * matrix_at<Dim>(particles.affine, p).transpose();
+    sum.moment += m * x * v.transpose() + m * inertia_of<Dim>(shape, grid, x, box_of(particles, p)) *
+                                              matrix_at<Dim>(particles.affine, p).transpose();
   }
   return sum;
 }
@@ -63,7 +63,7 @@ TYPED_TEST(Choices, ConserveMassAndMomentaThereAndBack)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("momenta", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = awkward_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, awkward_cloud(chance, count, grid));
     const Discretisation apic = choice_of(TypeParam::shape, Transfer::apic);
     scatter_body<Dim>(particles, Vec<Dim>::Zero(), grid, apic);
     check_equal(of_particles<Dim>(apic.shape, particles, particles.position, grid), of_grid(grid, false));
@@ -82,7 +82,7 @@ TYPED_TEST(Choices, FlipConservesMomentumWhateverItsFraction)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("flip momentum", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     const Discretisation flip = choice_of(TypeParam::shape, Transfer::flip, chance(0.0, 1.0));
     scatter_body<Dim>(particles, Vec<Dim>::Zero(), grid, flip);
     const auto momentum = [&] {
@@ -105,7 +105,7 @@ TYPED_TEST(Choices, FlipTakesTheChangeAndPicTheVelocity)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("flip formula", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     Discretisation flip = choice_of(TypeParam::shape, Transfer::flip, chance(0.0, 1.0));
     scatter_body<Dim>(particles, chance.vector<Dim>(10.0), grid, flip);
     Grid<Dim> old = grid;
@@ -115,8 +115,9 @@ TYPED_TEST(Choices, FlipTakesTheChangeAndPicTheVelocity)
     const double dt = chance(1e-4, 1e-3);
     gather(flip, grid, dt, Gather::all, particles);
     for (std::size_t p = 0; p < count; ++p) {
-      const Vec<Dim> x = vector_at<Dim>(before.position, p), now = velocity_at<Dim>(flip.shape, grid, x);
-      const Vec<Dim> flipped = vector_at<Dim>(before.velocity, p) + now - velocity_at<Dim>(flip.shape, old, x);
+      const Vec<Dim> x = vector_at<Dim>(before.position, p), box = box_of(before, p);
+      const Vec<Dim> now = velocity_at<Dim>(flip.shape, grid, x, box);
+      const Vec<Dim> flipped = vector_at<Dim>(before.velocity, p) + now - velocity_at<Dim>(flip.shape, old, x, box);
       const Vec<Dim> expected = flip.flip_fraction * flipped + (1.0 - flip.flip_fraction) * now;
       const double size = 1.0 + now.norm();
       RC_ASSERT(apart(vector_at<Dim>(particles.velocity, p), expected) < 1e-12 * size);
@@ -133,7 +134,7 @@ TYPED_TEST(Choices, ReproduceAnAffineField)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("affine field", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = awkward_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, awkward_cloud(chance, count, grid));
     const Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance));
     const Vec<Dim> v0 = chance.vector<Dim>(2.0);
     const Mat<Dim> b = chance.matrix<Dim>(3.0);
@@ -167,7 +168,7 @@ TYPED_TEST(Choices, ReturnARigidTranslationExactly)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("translation", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = awkward_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, awkward_cloud(chance, count, grid));
     const Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance), chance(0.0, 1.0));
     const Vec<Dim> v = chance.vector<Dim>(2.0), gravity = chance.vector<Dim>(10.0);
     particles.weight_mass = particles.mass;
@@ -211,7 +212,7 @@ TYPED_TEST(Choices, PullWithStressViscosityWeightAndExternalForce)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("forces", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = awkward_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, awkward_cloud(chance, count, grid));
     const Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance));
     const Vec<Dim> gravity = chance.vector<Dim>(10.0);
     BodyTerms terms;
@@ -251,9 +252,11 @@ TYPED_TEST(Choices, CarryASurfaceForceExactlyInForceAndMoment)
     Vec<Dim> force = Vec<Dim>::Zero();
     Mat<Dim> moment = Mat<Dim>::Zero();
     for (int n = 0; n < 5; ++n) {
+      Particles<Dim> one = boxed(chance, TypeParam::shape, grid, random_cloud(chance, 1, grid));
       const Vec<Dim> x = random_point(chance, grid), arm = chance.vector<Dim>(0.5 * grid.dx());
       const Vec<Dim> f = chance.vector<Dim>(10.0);
-      add_surface_force<Dim>(TypeParam::shape, x, arm, f, grid);
+      set_vector<Dim>(one.position, 0, x);
+      add_surface_force<Dim>(TypeParam::shape, one, 0, arm, f, grid);
       force += f;
       moment += f * (x + arm).transpose();
     }

@@ -28,7 +28,8 @@ struct Case {
 
   /// Scattered and assembled: what a step does before the forces.
   Case(Chance& chance, Shape shape, std::size_t count, const std::array<FaceCondition, 2 * Dim>& faces)
-      : grid(random_grid<Dim>(chance, all_cells(), faces)), particles(random_cloud(chance, count, grid))
+      : grid(random_grid<Dim>(chance, all_cells(), faces))
+      , particles(boxed(chance, shape, grid, random_cloud(chance, count, grid)))
   {
     Strips strips;
     Sorter<Dim>().sort(grid, particles, strips);
@@ -81,8 +82,10 @@ TYPED_TEST(Consistent, HoldsTheKineticEnergyOfTheParticlesUnderAnyFaces)
       expected += ConsistentMass<Dim>::lumped_part * node_mass(c.grid, active[n]) * v[n].square().sum();
     }
     for (std::size_t p = 0; p < c.particles.size(); ++p)
-      expected += (1.0 - ConsistentMass<Dim>::lumped_part) * c.particles.mass[p] *
-                  velocity_at<Dim>(TypeParam::shape, moving, vector_at<Dim>(c.particles.position, p)).squaredNorm();
+      expected +=
+          (1.0 - ConsistentMass<Dim>::lumped_part) * c.particles.mass[p] *
+          velocity_at<Dim>(TypeParam::shape, moving, vector_at<Dim>(c.particles.position, p), box_of(c.particles, p))
+              .squaredNorm();
     const auto before = v;
     c.update.mass().multiply(v, c.alone);
     for (std::size_t n = 0; n < active.size(); ++n)

@@ -32,13 +32,13 @@ struct Setting {
   Particles<Dim> sheet_nodes;
 };
 
-/// Adds weight * mass of a point to the nodes.
+/// Adds weight * mass of a row to the nodes.
 template <int Dim>
-void add_mass(Shape shape, const Vec<Dim>& x, double mass, Grid<Dim>& grid)
+void add_mass(Shape shape, const Particles<Dim>& particles, std::size_t p, Grid<Dim>& grid)
 {
-  const AnyReach<Dim> reach = reach_of<Dim>(shape, x, grid);
+  const AnyReach<Dim> reach = reach_of<Dim>(shape, particles, p, Vec<Dim>::Zero(), grid);
   for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k)
-    grid.nodes()[reach.node[k]][Grid<Dim>::mass_slot] += reach.weight[k] * mass;
+    grid.nodes()[reach.node[k]][Grid<Dim>::mass_slot] += reach.weight[k] * particles.mass[p];
 }
 
 inline Moduli elastic_moduli(double young, double poisson)
@@ -85,9 +85,12 @@ Setting<Dim> make_setting(Chance& chance, Shape shape, double poisson, const Clo
     set_vector<Dim>(setting.particles.position, p, place[p]);
     setting.particles.volume[p] = std::pow(spacing, Dim);
     setting.particles.mass[p] = density * setting.particles.volume[p] * chance(0.8, 1.2);
-    add_mass<Dim>(shape, place[p], setting.particles.mass[p], grid);
     middle += place[p] / static_cast<double>(place.size());
   }
+  if (shape == Shape::gimp)
+    setting.particles.use_boxes();
+  for (std::size_t p = 0; p < place.size(); ++p)
+    add_mass<Dim>(shape, setting.particles, p, grid);
   if (cloud.sheet_ratio > 0.0) {  // a straight chain across the cloud, a little longer than it
     const double length = cloud.segment_cells * h;
     const int count = std::max(1, static_cast<int>((cloud.cells + 1) * h / length));
@@ -101,7 +104,7 @@ Setting<Dim> make_setting(Chance& chance, Shape shape, double poisson, const Clo
         const auto node = static_cast<std::size_t>(2 * s + e);
         setting.sheet_nodes.mass[node] = 0.01 * density * std::pow(h, Dim - 1) * length;
         set_vector<Dim>(setting.sheet_nodes.position, node, e == 0 ? a : b);
-        add_mass<Dim>(shape, e == 0 ? a : b, setting.sheet_nodes.mass[node], grid);
+        add_mass<Dim>(shape, setting.sheet_nodes, node, grid);
       }
     }
   }
@@ -125,7 +128,7 @@ Eigen::MatrixXd scaled_matrix(const Setting<Dim>& setting, const Moduli& moduli,
       k.template block<Dim, Dim>(row[i], row[j]) += block / std::sqrt(node_mass(grid, i) * node_mass(grid, j));
   };
   for (std::size_t p = 0; p < setting.particles.size(); ++p) {
-    const AnyReach<Dim> reach = reach_of<Dim>(setting.shape, vector_at<Dim>(setting.particles.position, p), grid);
+    const AnyReach<Dim> reach = reach_of<Dim>(setting.shape, setting.particles, p, Vec<Dim>::Zero(), grid);
     for (std::size_t i = 0; i < static_cast<std::size_t>(reach.count); ++i)
       for (std::size_t j = 0; j < static_cast<std::size_t>(reach.count); ++j) {
         const Vec<Dim>&a = reach.gradient[i], &b = reach.gradient[j];
@@ -213,8 +216,14 @@ inline Eigen::MatrixXd kept(const Setting<2>& setting, Transfer transfer)
       row[i] = 2 * count++;
   });
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(2 * count, 2 * count);
-  const auto add = [&](const Vec<2>& x, double mass) {
-    const AnyReach<2> reach = reach_of<2>(setting.shape, x, grid);
+  const auto add = [&](const Particles<2>& set, std::size_t q) {
+    const Vec<2> x = vector_at<2>(set.position, q);
+    const double mass = set.mass[q];
+    const AnyReach<2> reach = reach_of<2>(setting.shape, set, q, Vec<2>::Zero(), grid);
+    // About the point, by direction; of points on linear elements no affine transfer is asked.
+    Vec<2> inertia = Vec<2>::Zero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(reach.count); ++i)
+      inertia += reach.weight[i] * (place[reach.node[i]] - x).cwiseAbs2();
     for (std::size_t i = 0; i < static_cast<std::size_t>(reach.count); ++i)
       for (std::size_t j = 0; j < static_cast<std::size_t>(reach.count); ++j) {
         const std::size_t a = reach.node[i], b = reach.node[j];
@@ -222,14 +231,14 @@ inline Eigen::MatrixXd kept(const Setting<2>& setting, Transfer transfer)
           continue;
         double same = reach.weight[i] * reach.weight[j];
         if (transfer == Transfer::apic)
-          same *= 1.0 + (place[a] - x).dot(place[b] - x) / bspline_inertia(grid.dx());
+          same *= 1.0 + (place[a] - x).cwiseQuotient(inertia).dot(place[b] - x);
         p.block<2, 2>(row[a], row[b]) +=
             mass * same / std::sqrt(node_mass(grid, a) * node_mass(grid, b)) * Mat<2>::Identity();
       }
   };
   for (const Particles<2>* set : { &setting.particles, &setting.sheet_nodes })
     for (std::size_t q = 0; q < set->size(); ++q)
-      add(vector_at<2>(set->position, q), set->mass[q]);
+      add(*set, q);
   return p;
 }
 

@@ -18,7 +18,7 @@ TYPED_TEST(Sequences, SplitAScatterIntoMomentumAndForce)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("parts", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = awkward_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, awkward_cloud(chance, count, grid));
     const Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance));
     const Vec<Dim> gravity = chance.vector<Dim>(10.0);
     Strips strips;
@@ -45,7 +45,7 @@ TYPED_TEST(Sequences, GatherInPiecesWhatTheyGatherAtOnce)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("pieces", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     const Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance), chance(0.0, 1.0));
     scatter_body<Dim>(particles, chance.vector<Dim>(10.0), grid, choice);
     apply_forces(grid, 1e-4, 0.0, choice);
@@ -75,7 +75,7 @@ TYPED_TEST(Sequences, GoToVelocitiesAndBackToMomenta)
     std::array<int, Dim> size;
     size.fill(cells);
     Grid<Dim> grid = random_grid<Dim>(chance, size, any_faces<Dim>(chance));
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     const Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance));
     Strips strips;
     Sorter<Dim>().sort(grid, particles, strips);
@@ -109,7 +109,7 @@ TYPED_TEST(Sequences, KeepOldVelocitiesUnderTheFaceConditions)
     std::array<int, Dim> size;
     size.fill(cells);
     Grid<Dim> grid = random_grid<Dim>(chance, size, any_faces<Dim>(chance));
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     const Discretisation flip = choice_of(TypeParam::shape, Transfer::flip);
     scatter_body<Dim>(particles, chance.vector<Dim>(10.0), grid, flip);
     Grid<Dim> old = grid;
@@ -131,7 +131,7 @@ TYPED_TEST(Sequences, GiveTheSameBitsWithAnyNumberOfThreads)
     size.fill(3);
     size[0] = chance.whole(5, 40);
     Grid<Dim> start = random_grid<Dim>(chance, size, any_faces<Dim>(chance));
-    Particles<Dim> particles = random_cloud(chance, 150, start);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, start, random_cloud(chance, 150, start));
     Strips strips;
     Sorter<Dim>().sort(start, particles, strips);
     Discretisation choice = choice_of(TypeParam::shape, any_transfer(chance), chance(0.0, 1.0));

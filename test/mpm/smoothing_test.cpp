@@ -47,7 +47,7 @@ TYPED_TEST(Smooth, AveragesLeaveAUniformStressAlone)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("uniform stress", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     set_uniform_stress(chance, particles);
     for (double& volume : particles.volume)
       volume *= 1e-4;  // no element is full
@@ -66,7 +66,7 @@ TYPED_TEST(Smooth, AveragesKeepTheMeanStressAndTheViscousOne)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("mean", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     for (double& volume : particles.volume)
       volume *= 1e-4;
     for (Column& column : particles.gradient)
@@ -98,7 +98,7 @@ TYPED_TEST(Smooth, RatesKeepDeviatorSpinAndTotalVolumeAndAUniformDilation)
   constexpr int Dim = TypeParam::Dim;
   EXPECT_TRUE(holds("rates", [](Chance& chance) {
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     Strips strips;
     Sorter<Dim>().sort(grid, particles, strips);
     open(everything(grid), grid);
@@ -167,7 +167,7 @@ TYPED_TEST(Smooth, ForcesWorkOnAMotionAsStressesDoOnItsSmoothedGradients)
     const Smoothing smoothing = chance.whole(0, 1) == 0 ? Smoothing::cell_average : Smoothing::nodal_mixed;
     const Discretisation choice = smoothed(TypeParam::shape, smoothing);
     Grid<Dim> grid = random_grid<Dim>(chance, cells);
-    Particles<Dim> particles = random_cloud(chance, count, grid);
+    Particles<Dim> particles = boxed(chance, TypeParam::shape, grid, random_cloud(chance, count, grid));
     for (double& volume : particles.volume)
       volume *= 1e-4;  // no element is integrated with its own volume
     scatter_body<Dim>(particles, Vec<Dim>::Zero(), grid, choice);

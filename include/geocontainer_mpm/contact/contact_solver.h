@@ -115,7 +115,8 @@ private:
     Vec2 velocity, impulse;
   };
 
-  Handle make_handle(const Vec2& point, const mpm::Grid<2>& grid) const;
+  template <class Reach>
+  static Handle make_handle(const Reach& reach, const mpm::Grid<2>& grid);
   void collect(std::uint32_t index, const BoundaryBody& body, const ContactPoints& points, std::size_t memory,
                double dt, const mpm::Grid<2>& grid);
   void remember_untouched(const mpm::Grid<2>& grid);

@@ -5,8 +5,17 @@
 namespace geocontainer_mpm::mpm {
 
 /// bspline2: quadratic B-splines (Steffen, Kirby and Berzins 2008). linear_simplex: the founding paper's, three-node
-/// triangles (two a cell) or four-node tetrahedra (six a cell).
-enum class Shape { bspline2, linear_simplex };
+/// triangles (two a cell) or four-node tetrahedra (six a cell). gimp: linear ones averaged over the particle's box
+/// (Bardenhagen and Kober 2004), whose edges follow the stretch along the grid's axes (Wallstedt and Guilkey 2008, JCP
+/// 227:9628: cpGIMP).
+enum class Shape { bspline2, linear_simplex, gimp };
+
+/// What stands for a shape where a point has no box, as the nodes of a sheet have none: gimp then averages over a cell,
+/// which is bspline2.
+constexpr Shape shape_of_points(Shape shape)
+{
+  return shape == Shape::gimp ? Shape::bspline2 : shape;
+}
 
 /// apic: affine (Jiang et al. 2015); a scene may not take it with linear_simplex, whose nodes at the edge of the
 /// material have next to no mass: the affine matrix there is the element's velocity gradient, keeps what those nodes
@@ -40,7 +49,7 @@ struct Discretisation {
 inline bool smooths_gradients(const Discretisation& d)
 {
   return d.smoothing == Smoothing::nodal_mixed ||
-         (d.smoothing == Smoothing::cell_average && d.shape == Shape::bspline2);
+         (d.smoothing == Smoothing::cell_average && d.shape != Shape::linear_simplex);
 }
 
 }  // namespace geocontainer_mpm::mpm

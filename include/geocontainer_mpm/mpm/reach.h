@@ -1,6 +1,6 @@
 #pragma once
-/// The grid nodes that a point reaches, with weights and gradients, for every shape. The transfers of bspline2 have
-/// their own separable loops; everything that looks at few points, and the linear simplices, use these lists.
+/// The grid nodes that a point reaches, with weights and gradients, for every shape. The transfers of bspline2 and
+/// gimp have their own separable loops; everything that looks at few points, and the linear simplices, use these lists.
 
 #include <array>
 #include <cmath>
@@ -10,7 +10,9 @@
 
 #include "geocontainer_mpm/mpm/bspline.h"
 #include "geocontainer_mpm/mpm/discretisation.h"
+#include "geocontainer_mpm/mpm/gimp.h"
 #include "geocontainer_mpm/mpm/grid.h"
+#include "geocontainer_mpm/mpm/particles.h"
 
 namespace geocontainer_mpm::mpm {
 
@@ -27,14 +29,10 @@ inline constexpr int most_nodes = Dim == 2 ? 9 : 27;
 template <int Dim>
 using AnyReach = Reach<Dim, most_nodes<Dim>>;
 
-/// The 3^Dim nodes of quadratic B-splines, fastest index last.
+/// The 3^Dim nodes of a stencil, fastest index last.
 template <int Dim>
-inline Reach<Dim, most_nodes<Dim>> bspline_reach(const Vec<Dim>& point, const Grid<Dim>& grid)
+inline Reach<Dim, most_nodes<Dim>> reach_of(const Stencil<Dim>& s, const Grid<Dim>& grid)
 {
-  std::array<double, Dim> x;
-  for (int d = 0; d < Dim; ++d)
-    x[static_cast<std::size_t>(d)] = point[d];
-  const Stencil<Dim> s = make_stencil<Dim>(x, grid.origin(), grid.dx(), grid.inverse_dx());
   Reach<Dim, most_nodes<Dim>> reach;
   reach.count = most_nodes<Dim>;
   for (int k = 0; k < reach.count; ++k) {
@@ -56,6 +54,35 @@ inline Reach<Dim, most_nodes<Dim>> bspline_reach(const Vec<Dim>& point, const Gr
     }
   }
   return reach;
+}
+
+/// The 3^Dim nodes of quadratic B-splines at a point.
+template <int Dim>
+inline Reach<Dim, most_nodes<Dim>> bspline_reach(const Vec<Dim>& point, const Grid<Dim>& grid)
+{
+  std::array<double, Dim> x;
+  for (int d = 0; d < Dim; ++d)
+    x[static_cast<std::size_t>(d)] = point[d];
+  return reach_of<Dim>(make_stencil<Dim>(x, grid.origin(), grid.dx(), grid.inverse_dx()), grid);
+}
+
+/// Stencil of row p; with gimp it has a box.
+template <int Dim, Shape shape>
+[[gnu::always_inline]] inline Stencil<Dim> stencil_of(const Particles<Dim>& particles, std::size_t p,
+                                                      const Grid<Dim>& grid)
+{
+  static_assert(shape != Shape::linear_simplex);
+  std::array<double, Dim> x;
+  for (std::size_t d = 0; d < Dim; ++d)
+    x[d] = particles.position[d][p];
+  if constexpr (shape == Shape::bspline2) {
+    return make_stencil<Dim>(x, grid.origin(), grid.dx(), grid.inverse_dx());
+  } else {
+    std::array<double, Dim> box;
+    for (std::size_t d = 0; d < Dim; ++d)
+      box[d] = particles.box[d][p];
+    return make_box_stencil<Dim>(x, box, grid.origin(), grid.dx(), grid.inverse_dx());
+  }
 }
 
 /// The linear simplex around a point. Every cell is cut along the order of a point's fractional coordinates
@@ -114,11 +141,35 @@ inline Reach<Dim, Dim + 1> simplex_reach(const Vec<Dim>& point, const Grid<Dim>&
   return reach;
 }
 
-/// For a shape known at run time only.
+/// The shape of a set: without boxes it is one of points.
+template <int Dim>
+inline Shape shape_of(Shape shape, const Particles<Dim>& particles)
+{
+  return particles.box[0].empty() ? shape_of_points(shape) : shape;
+}
+
+/// Calls `visit(reach)` with the nodes of row p, as many as its shape has.
+template <int Dim, class Visitor>
+inline void visit_reach_of(Shape shape, const Particles<Dim>& particles, std::size_t p, const Grid<Dim>& grid,
+                           Visitor&& visit)
+{
+  if (shape == Shape::linear_simplex) {
+    Vec<Dim> x;
+    for (std::size_t d = 0; d < Dim; ++d)
+      x[static_cast<Eigen::Index>(d)] = particles.position[d][p];
+    visit(simplex_reach<Dim>(x, grid));
+  } else if (shape_of(shape, particles) == Shape::gimp) {
+    visit(reach_of<Dim>(stencil_of<Dim, Shape::gimp>(particles, p, grid), grid));
+  } else {
+    visit(reach_of<Dim>(stencil_of<Dim, Shape::bspline2>(particles, p, grid), grid));
+  }
+}
+
+/// For a shape known at run time only; a point has no box.
 template <int Dim>
 inline AnyReach<Dim> reach_of(Shape shape, const Vec<Dim>& point, const Grid<Dim>& grid)
 {
-  if (shape == Shape::bspline2)
+  if (shape != Shape::linear_simplex)
     return bspline_reach<Dim>(point, grid);
   const Reach<Dim, Dim + 1> few = simplex_reach<Dim>(point, grid);
   AnyReach<Dim> reach;
@@ -131,6 +182,22 @@ inline AnyReach<Dim> reach_of(Shape shape, const Vec<Dim>& point, const Grid<Dim
     reach.gradient[k] = few.gradient[there ? k : 0] * (there ? 1.0 : 0.0);
   }
   return reach;
+}
+
+/// The same for a particle with its box, its middle moved by `shift`, m.
+template <int Dim>
+inline AnyReach<Dim> reach_of(Shape shape, const Particles<Dim>& particles, std::size_t p, const Vec<Dim>& shift,
+                              const Grid<Dim>& grid)
+{
+  std::array<double, Dim> x, box;
+  Vec<Dim> point;
+  for (std::size_t d = 0; d < Dim; ++d)
+    point[static_cast<Eigen::Index>(d)] = x[d] = particles.position[d][p] + shift[static_cast<Eigen::Index>(d)];
+  if (shape_of(shape, particles) != Shape::gimp)
+    return reach_of<Dim>(shape, point, grid);
+  for (std::size_t d = 0; d < Dim; ++d)
+    box[d] = particles.box[d][p];
+  return reach_of<Dim>(make_box_stencil<Dim>(x, box, grid.origin(), grid.dx(), grid.inverse_dx()), grid);
 }
 
 }  // namespace geocontainer_mpm::mpm

@@ -73,15 +73,16 @@ template <int Dim>
 void grid_to_particles(const Discretisation& discretisation, const Grid<Dim>& grid, double dt, Gather what,
                        Particles<Dim>& particles, std::size_t begin, std::size_t end);
 
-/// A force (N, N/m in plane strain) at point + arm, on the surface, carried by the outermost particle at `point`, half
-/// of whose width the arm is: f_i += force (w_i(point - arm) + 2 arm . grad w_i(point)). Force and moment about any
-/// point are exact. The second part is what a stress would do that carries the force through the particle's volume, by
-/// the same one-point rule as the internal force: under a uniform stress that balances the force, nodes that only the
-/// outermost particle reaches feel nothing, however light they are. (Taking w_i(point + arm) instead pulls them away:
-/// the outermost row then moves by several per cent of a cell.) Cf. the virtual stress of Liang, Given and Soga 2023,
-/// Comput. Geotech.
+/// A force (N, N/m in plane strain) at point + arm, on the surface, carried by the outermost particle p at `point`,
+/// half of whose width the arm is: f_i += force (w_i(point - arm) + 2 arm . grad w_i(point)). Force and moment about
+/// any point are exact. The second part is what a stress would do that carries the force through the particle's volume,
+/// by the same one-point rule as the internal force: under a uniform stress that balances the force, nodes that only
+/// the outermost particle reaches feel nothing, however light they are. (Taking w_i(point + arm) instead pulls them
+/// away: the outermost row then moves by several per cent of a cell.) Cf. the virtual stress of Liang, Given and Soga
+/// 2023, Comput. Geotech.
 template <int Dim>
-void add_surface_force(Shape shape, const Vec<Dim>& point, const Vec<Dim>& arm, const Vec<Dim>& force, Grid<Dim>& grid);
+void add_surface_force(Shape shape, const Particles<Dim>& particles, std::size_t p, const Vec<Dim>& arm,
+                       const Vec<Dim>& force, Grid<Dim>& grid);
 
 /// nodal_mixed (Detournay and Dzik 2006, FLAC symposium 4): replaces the volumetric part of Particles::gradient (in
 /// plane strain that in the plane) by the mean, over the nodes of the particle's element, of nodal means over the

@@ -12,6 +12,8 @@ namespace geocontainer_mpm::scene {
 struct Sampling {
   std::vector<Vec2> points;     ///< m
   std::vector<double> volumes;  ///< of each, per unit width, m^2: their sum is the area of the shape
+  std::optional<Vec2> tile;  ///< edges of a part along y and z where all are alike, m; of a rotated one, those of the
+                             ///< upright box with the same moments of area
 };
 
 /// Closed outline, counter-clockwise (y to the right, z up), m; of a ring the outer one. A circle becomes a polygon

@@ -10,12 +10,18 @@ from suite.series import Convergence
 
 TITLE = "Compaction under self-weight, large strain"
 SOURCE = "Wyser et al. 2020, Geosci. Model Dev. 13:6265, section 4.1: equilibrium of what lies above a material point"
-REMARKS = """The norm is that of the source: the volume-weighted mean of |stress - exact| over the weight of the column. It
-keeps a share from the particles at the free surface, where half a cell has no material."""
+REMARKS = """The norm is that of the source: the volume-weighted mean of |stress - exact| over the weight of the column.
+The column is at rest when it is taken (velocities below 1e-10 m/s), and the ends have a small part of it: what is left by
+the default is the one-point rule of its internal force, sum V sigma grad w(x), for particles that compaction has put
+anywhere in their cells. Its error is a share of the stress that depends on the particles in a cell and not on the cells:
+4 % with one a cell in each direction, 0.5 % with two, 0.2 % with three, 0.14 % with four, at any cell size. *gimp* averages
+over the particles' boxes, which tile the column, and what is left falls with the cells, as the source's own convected GIMP
+does."""
 
 LENGTH, WEIGHT = 10.0, 80.0 * 9.81
 SIZES = [2.0, 1.0, 0.5, 0.25, 0.125]
-METHODS = {"default": methods.DEFAULT, "linear flip": methods.STANDARD,
+JUDGED = ["default", "gimp"]
+METHODS = {"default": methods.DEFAULT, "gimp": methods.GIMP, "linear flip": methods.STANDARD,
            "linear flip cell_average": methods.CELL_AVERAGE}
 
 
@@ -30,8 +36,7 @@ def run(method, size):
 
 def runs(full):
     sizes = SIZES if full else [1.0, 0.5, 0.25]
-    return [run("default", size) for size in sizes] + [
-        run(method, size) for method in METHODS for size in sizes if full and method != "default"]
+    return [run(method, size) for method in (METHODS if full else JUDGED) for size in sizes]
 
 
 def norm(result):
@@ -44,16 +49,18 @@ def norm(result):
     return float(np.sum(np.abs(stress - exact) * first["soil/volume"]) / (WEIGHT * LENGTH * np.sum(first["soil/volume"])))
 
 
-def order(results, sizes):
-    return Convergence("default", "norm of the stress error", "", sizes,
-                       [norm(results[f"default {size:g}"]) for size in sizes])
+def order(results, method, sizes):
+    return Convergence(method, "norm of the stress error", "", sizes,
+                       [norm(results[f"{method} {size:g}"]) for size in sizes]).order
 
 
 def quantities(results, full):
-    series = order(results, SIZES if full else [1.0, 0.5, 0.25])
+    sizes = SIZES if full else [1.0, 0.5, 0.25]
     # First order is the bar of the issue and what the source reports for its GIMP.
-    figures = [at_least("order of the stress norm", "default", series.order, 1.0) if full
-               else shown("order of the stress norm", "default", series.order, 1.0, "", False)]  # not met, see the page
+    figures = [at_least("order of the stress norm", "gimp", order(results, "gimp", sizes), 1.0)]
+    default = order(results, "default", sizes)  # not met, see REMARKS
+    figures.append(at_least("order of the stress norm", "default", default, 1.0) if full
+                   else shown("order of the stress norm", "default", default, 1.0, "", False))
     stress = results["default 0.25"].last("column", "stress_zz_pa")
     # Mean over the present volume: by equilibrium the integral of the stress over it is that of the weight above,
     # weighted by the local stretch. At small cells 2 % says that the profile is right, not only its slope.

@@ -2,6 +2,7 @@
 
 DEFAULT = {}
 FLIP = {"numerics.transfer": "flip"}
+GIMP = {"numerics.shape": "gimp"}
 # The founding paper's: three-node triangles, standard MPM (Sulsky, Chen and Schreyer 1994), lumped mass, velocities
 # mapped back from the particles (Sulsky, Zhou and Schreyer 1995). Particles that cross from one element to the next
 # make energy, which the run is not to be stopped for here.
@@ -17,6 +18,7 @@ SWEEP = {
     "bspline2 apic musl": {"numerics.shape": "bspline2", "numerics.transfer": "apic", "numerics.update": "musl"},
     "bspline2 flip": {"numerics.shape": "bspline2", "numerics.transfer": "flip"},
     "bspline2 flip 0.99": {"numerics.shape": "bspline2", "numerics.transfer": "flip", "numerics.flip_fraction": 0.99},
+    "gimp apic": GIMP,
     "linear flip": STANDARD,
     "linear flip cell_average": CELL_AVERAGE,
     "linear flip nodal_mixed": NODAL_MIXED,
