@@ -14,8 +14,7 @@ struct Drawing {
   bool twice = false;  ///< runs again after reset(), and on two threads: the same bits must come out
 };
 
-/// The scene of a seed: the same text on every machine, by builds of one compiler (in which order the arguments of a
-/// call are drawn is its own choice).
+/// The scene of a seed: the same text on every machine and with every compiler.
 Drawing draw(std::uint64_t seed);
 
 }  // namespace geocontainer_mpm::stability

@@ -24,6 +24,8 @@ using scene::Simulation;
 /// count in: what a force puts into nodes that hardly any mass reaches, and the next transfer takes out again, is no
 /// gain. Remedies against locking keep stresses that do no work, so that their elastic energy says little.
 constexpr double most_gained = 0.15, most_gained_smoothed = 1.0;
+/// The same over the most that changed hands so far: at the top of a bounce hardly anything has.
+constexpr double most_gained_of_turnover = 0.12;
 /// The same lost without an account: by the method whose account closes, quadratic B-splines that strain by the
 /// velocity that the forces worked on.
 constexpr double most_lost = 0.1;
@@ -44,6 +46,12 @@ struct Start {
   std::vector<double> volume;
   double energy = 0.0;  ///< kinetic and elastic, and what contact may push, J/m
   double speed = 0.0;   ///< m/s, of what may move without anything going wrong
+};
+
+/// Of all looks so far: see Verdict.
+struct Sums {
+  double turnover = 0.0;  ///< J/m
+  double gained = 0.0, lost = 0.0;
 };
 
 double volume_of(const scene::SoilFrame& soil)
@@ -190,7 +198,8 @@ std::string look_at_points(const SceneDescription& scene, const Frame& frame, co
   return "";
 }
 
-std::string look_at_energy(const scene::EnergyFrame& e, const Start& start, const mpm::Discretisation& method)
+std::string look_at_energy(const scene::EnergyFrame& e, const Start& start, const mpm::Discretisation& method,
+                           Sums& sums)
 {
   for (const double value : { e.kinetic, e.elastic, e.potential, e.dissipated, e.work_in, e.unbalanced })
     if (!std::isfinite(value))
@@ -199,6 +208,14 @@ std::string look_at_energy(const scene::EnergyFrame& e, const Start& start, cons
   const double scale = start.energy + exchanged;
   const bool smoothed = method.smoothing != mpm::Smoothing::none;
   const double gained = e.unbalanced - e.dissipated_transfer;
+  sums.turnover = std::max(sums.turnover, scale);
+  if (sums.turnover > 0.0) {
+    sums.gained = std::max(sums.gained, gained / sums.turnover);
+    sums.lost = std::max(sums.lost, -e.unbalanced / sums.turnover);
+  }
+  if (gained > most_gained_of_turnover * sums.turnover)
+    return fmt::format("{:.3g} J/m came from nowhere, of at most {:.3g} that there were or that changed hands", gained,
+                       sums.turnover);
   if (gained > (smoothed ? most_gained_smoothed : most_gained) * scale)
     return fmt::format("{:.3g} J/m came from nowhere, of {:.3g} that there were or that changed hands", gained, scale);
   const bool closes = method.update == mpm::UpdateOrder::usl && method.shape != mpm::Shape::linear_simplex;
@@ -209,7 +226,7 @@ std::string look_at_energy(const scene::EnergyFrame& e, const Start& start, cons
 }
 
 /// What is wrong with a frame; empty: nothing.
-std::string look_at(const Simulation& simulation, const Start& start)
+std::string look_at(const Simulation& simulation, const Start& start, Sums& sums)
 {
   const SceneDescription& scene = simulation.scene();
   const Frame frame = simulation.frame();
@@ -245,7 +262,7 @@ std::string look_at(const Simulation& simulation, const Start& start)
   // Without weight hardly any impulse changes hands that the error could be compared with.
   if (scene.gravity_m_per_s2 != Vec2::Zero() && !(simulation.counters().momentum_error <= most_momentum_error))
     return fmt::format("momentum error {:.3g}", simulation.counters().momentum_error);
-  return look_at_energy(frame.energy, start, scene.numerics.method);
+  return look_at_energy(frame.energy, start, scene.numerics.method, sums);
 }
 
 /// Runs to the end or through the budget; `verdict` says what was found. Returns the digest of the last look.
@@ -253,6 +270,7 @@ std::uint64_t run(Simulation& simulation, double budget, Verdict& verdict)
 {
   simulation.use_scene_opening();
   Start start;
+  Sums sums;
   bool started = false;
   std::uint64_t digest = 0;
   for (;;) {
@@ -277,7 +295,9 @@ std::uint64_t run(Simulation& simulation, double budget, Verdict& verdict)
     }
     const bool spent = static_cast<double>(counters.steps) * (static_cast<double>(counters.particles) + 60.0) > budget;
     if (done != Advance::stepped || spent) {
-      const std::string wrong = look_at(simulation, start);
+      const std::string wrong = look_at(simulation, start, sums);
+      verdict.gained = sums.gained;
+      verdict.lost = sums.lost;
       verdict.balance_error = simulation.energy().relative_balance_error;
       digest = digest * 31 + simulation.digest();
       if (!wrong.empty()) {

@@ -20,6 +20,9 @@ struct Verdict {
   double time_s = 0.0, end_s = 0.0;
   unsigned long long steps = 0, particles = 0, retries = 0;
   double balance_error = 0.0;  ///< relative, at the end
+  /// The most that particles gained and nobody paid for, and that went without an account, over what was there at the
+  /// start or changed hands at most.
+  double gained = 0.0, lost = 0.0;
 };
 
 Verdict judge(const Drawing& drawing);

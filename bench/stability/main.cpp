@@ -30,7 +30,7 @@ using namespace geocontainer_mpm::stability;
 struct Options {
   int count = 100, jobs = 1;
   std::uint64_t seed = 1;
-  std::string json, keep;
+  std::string json, csv, keep;
   unsigned cpu_limit_s = 60;
 };
 
@@ -51,7 +51,9 @@ nlohmann::json to_json(std::uint64_t seed, const Drawing& drawing, const Verdict
            { "steps", v.steps },
            { "particles", v.particles },
            { "retries", v.retries },
-           { "balance_error", v.balance_error } };
+           { "balance_error", v.balance_error },
+           { "gained", v.gained },
+           { "lost", v.lost } };
 }
 
 /// In the child: runs the scene, writes the verdict and ends.
@@ -123,6 +125,18 @@ void keep_scene(const std::string& folder, std::uint64_t seed, const std::string
   std::ofstream(fmt::format("{}/stability_{}.yaml", folder, seed)) << "# " << reason << "\n" << draw(seed).yaml;
 }
 
+/// A row for every scene that did not survive.
+void write_csv(const std::string& file, const std::vector<nlohmann::json>& scenes)
+{
+  std::ofstream out(file);
+  out << "seed,family,class,time_s,reason\n";
+  for (const nlohmann::json& scene : scenes)
+    if (scene["class"] != "survived")
+      out << fmt::format("{},{},{},{:.4g},\"{}\"\n", scene["seed"].get<std::uint64_t>(),
+                         scene["family"].get<std::string>(), scene["class"].get<std::string>(),
+                         scene["time_s"].get<double>(), scene["reason"].get<std::string>());
+}
+
 int run(const Options& options)
 {
   std::map<std::string, int> counts{ { "survived", 0 }, { "stopped", 0 }, { "failed", 0 } };
@@ -157,6 +171,8 @@ int run(const Options& options)
       { "count", options.count },       { "seed", options.seed },       { "survived", counts["survived"] },
       { "stopped", counts["stopped"] }, { "failed", counts["failed"] }, { "scenes", scenes }
     }.dump(1) << "\n";
+  if (!options.csv.empty())
+    write_csv(options.csv, scenes);
   return counts["failed"] == 0 ? 0 : 1;
 }
 
@@ -181,6 +197,7 @@ int main(int argc, char** argv)
   app.add_option("--seed", options.seed, "of the first; the others follow");
   app.add_option("--jobs", options.jobs, "scenes at a time")->check(CLI::PositiveNumber);
   app.add_option("--json", options.json, "file for all results");
+  app.add_option("--csv", options.csv, "file for the scenes that did not survive, a row each");
   app.add_option("--keep", options.keep, "folder for the scenes that failed");
   app.add_option("--cpu-limit", options.cpu_limit_s, "seconds of CPU after which a scene counts as hanging");
   std::string file;

@@ -14,11 +14,13 @@ void LinearElastic<Dim>::update(const Batch<Dim>& batch, double dt, std::size_t 
 #pragma omp simd
   for (std::size_t p = begin; p < end; ++p) {
     const Increment<Dim> step = access.increment(p, dt);
-    const Symmetric<Dim> stress = add(rotate(access.stress(p), step), 1.0, elastic_stress(elasticity, step.strain));
-    const double new_volume = volume[p] * (1.0 + step.volume_change);
+    const Symmetric<Dim> old = access.stress(p);
+    const Symmetric<Dim> stress = add(rotate(old, step), 1.0, elastic_stress(elasticity, step.strain));
+    const double mid_volume = volume[p] * (1.0 + 0.5 * step.volume_change);
+    const double change = energy_density(elasticity, stress) - energy_density(elasticity, old);
     access.set_stress(p, stress);
-    volume[p] = new_volume;
-    energy[p] = new_volume * energy_density(elasticity, stress);
+    volume[p] *= 1.0 + step.volume_change;
+    energy[p] += mid_volume * change;
   }
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::size_t chunk_size = 128;  // its arrays stay in the first-level cache
 
+// Bank beyond which a grain is alone.
+const double most_apart = std::log(10.0);
+
 // How far a stress may be beyond yield or cut-off, Pa: exact in plane strain.
 inline double excess(const PrincipalReturn& surface, const Symmetric<2>& s)
 {
@@ -133,15 +136,15 @@ void MohrCoulomb<Dim>::elastic_pass(const Batch<Dim>& batch, double dt, std::siz
     const Symmetric<Dim> old = access.stress(p);
     const Symmetric<Dim> trial = add(rotate(old, step), 1.0, elastic_stress(elasticity, step.strain));
     const double old_volume = volume[p], new_volume = old_volume * (1.0 + step.volume_change);
-    const double beyond = excess(surface, trial);
+    const double beyond = excess(surface, trial), old_energy = energy_density(elasticity, old);
     chunk.set_strain(i, step.strain);
     chunk.volume_change[i] = step.volume_change;
     chunk.old_volume[i] = old_volume;
-    chunk.old_energy[i] = energy_density(elasticity, old);
+    chunk.old_energy[i] = old_energy;
     chunk.excess[i] = beyond > bank[p] ? beyond : bank[p];
     access.set_stress(p, trial);
     volume[p] = new_volume;
-    energy[p] = new_volume * energy_density(elasticity, trial);
+    energy[p] += 0.5 * (old_volume + new_volume) * (energy_density(elasticity, trial) - old_energy);
   }
 }
 
@@ -214,10 +217,16 @@ void MohrCoulomb<Dim>::correct(const Batch<Dim>& batch, std::size_t particle, co
   }
   const double mid_volume = step.old_volume * (1.0 + 0.5 * step.volume_change);
   const double work = 0.5 * contract(add(old, 1.0, stress), step.strain);
+  double& stored = batch.elastic_energy[particle];
+  const double before = stored - mid_volume * (energy_density(elasticity_, full_trial) - step.old_energy);
+  stored = energy > 0.0 ? before + batch.volume[particle] * energy - step.old_volume * step.old_energy : 0.0;
+  batch.dissipated[particle] += mid_volume * work - (stored - before);
+  if (energy == 0.0 && bank > most_apart) {
+    batch.volume[particle] *= std::exp(most_apart - bank);
+    bank = most_apart;
+  }
   access.set_stress(particle, stress);
   batch.separated_strain[particle] = bank;
-  batch.elastic_energy[particle] = batch.volume[particle] * energy;
-  batch.dissipated[particle] += mid_volume * (work - (energy - step.old_energy));
 }
 
 template <int Dim>

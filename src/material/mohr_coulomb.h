@@ -18,12 +18,16 @@ namespace geocontainer_mpm::material {
 /// soil pulls again only once its gap has closed. With cohesion a crack may open across one direction while others stay
 /// loaded: closing then strains the crack, at zero stress across it, before compression builds there.
 ///
-/// **Dissipation** is the trapezoidal work less the change of stored energy, both for the mid-step volume:
-/// V_mid ((sigma_old + sigma_new) / 2 : de - (e_new - e_old)). It is zero in an elastic step; it matches the work that
-/// a leapfrog scheme exchanges with kinetic energy, so that the balance closes to second order; and it is >= 0 except
-/// in a step in which the stress unloads and then yields, by at most the product of that step's stress and strain
-/// increments. What no such account sees: for a Cauchy-stress law V e is the stored energy up to a relative error of
-/// the order of the elastic volume strain.
+/// A grain that has come apart to ten times its volume is alone: the gradient that it sees is that between it and
+/// bodies that it has left, and its bank and its volume, with which it counts in means, grow no more.
+///
+/// **Energy.** The work of a step is trapezoidal, V_mid (sigma_old + sigma_new) / 2 : de: what a leapfrog scheme
+/// exchanges with kinetic energy, so that the balance closes. In an elastic step all of it is stored, which is V_mid
+/// (e_new - e_old) with e = sigma : C^-1 : sigma / 2: for a Cauchy-stress law V e itself is no potential, and was a
+/// sixth short where sand was pressed to seven tenths of its volume. In a step that yields or opens the change of V e
+/// is stored, since flow takes the energy of what it adds to the volume along, and the rest of the work is dissipated:
+/// nothing in an elastic step, and >= 0 except in a step in which the stress unloads and then yields, by at most the
+/// product of that step's stress and strain increments. Without stress nothing is stored.
 template <int Dim>
 class MohrCoulomb final : public Law<Dim> {
 public:

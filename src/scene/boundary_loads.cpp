@@ -12,6 +12,8 @@ namespace {
 
 /// What counts as on the edge of a region, cells or pieces: positions come from decimal text.
 constexpr double edge_tolerance = 1e-6;
+/// A piece as many times longer than at the start is no boundary any more: what pulls on it would grow without end.
+constexpr double most_stretch = 10.0;
 
 bool within(const Region& region, const Vec2& point, double tolerance)
 {
@@ -62,7 +64,9 @@ Traction::Traction(const TractionDescription& description, const std::vector<std
           continue;
         const std::uint32_t owner = nearest_particle(particles, middle);
         const Vec2 at(particles.position[0][owner], particles.position[1][owner]);  // not sorted yet: row = id
-        pieces_.push_back({ owner, middle - at, Vec2(along[1], -along[0]) / count });
+        const Vec2 area = Vec2(along[1], -along[0]) / count;
+        pieces_.push_back({ owner, middle - at, area, area.norm(), at,
+                            Vec2(particles.velocity[0][owner], particles.velocity[1][owner]) });
       }
     }
 }
@@ -88,28 +92,36 @@ Vec2 Traction::add_to(mpm::Grid<2>& grid, mpm::Shape shape, const mpm::Particles
   return sum;
 }
 
-double Traction::power(const mpm::Particles<2>& particles, const std::vector<std::uint32_t>& row, double time_s) const
+double Traction::power(double time_s) const
 {
   const double factor = factor_at(description_.table, time_s);
   double power = 0.0;
-  for (const Piece& piece : pieces_) {
-    const std::size_t p = row[piece.owner];
-    const Vec2 velocity =
-        Vec2(particles.velocity[0][p], particles.velocity[1][p]) + gradient_of(particles, p) * piece.offset;
-    power += force(piece, factor).dot(velocity);
-  }
+  for (const Piece& piece : pieces_)
+    power += force(piece, factor).dot(piece.velocity);
   return power;
 }
 
 void Traction::move(const mpm::Particles<2>& particles, const std::vector<std::uint32_t>& row, double dt)
 {
   for (Piece& piece : pieces_) {
-    const Mat2 step = Mat2::Identity() + dt * gradient_of(particles, row[piece.owner]);
+    const std::size_t p = row[piece.owner];
+    const Vec2 place(particles.position[0][p], particles.position[1][p]);
+    const Mat2 gradient = gradient_of(particles, p), step = Mat2::Identity() + dt * gradient;
+    piece.velocity = (place - piece.place) / dt + gradient * piece.offset;
+    piece.place = place;
     piece.offset = step * piece.offset;
     // det(F) F^-T, written out.
     const Vec2 area = piece.area;
     piece.area = { step(1, 1) * area[0] - step(1, 0) * area[1], step(0, 0) * area[1] - step(0, 1) * area[0] };
   }
+}
+
+std::optional<std::uint32_t> Traction::torn() const
+{
+  for (const Piece& piece : pieces_)
+    if (!(piece.area.norm() <= most_stretch * piece.length))
+      return piece.owner;
+  return std::nullopt;
 }
 
 SupportSums apply_support(const SupportDescription& support, double time_s, double kick, mpm::Grid<2>& grid)

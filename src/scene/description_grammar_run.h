@@ -87,6 +87,11 @@ void describe(V& v, NumericsDescription& n)
   v.value({ "energy_jump", optional, "",
             "energy from nowhere, over that present or exchanged, at which a step counts as gone wrong" },
           n.energy_jump, positive());
+  v.value(
+      { "speed_jump", optional, "",
+        "speed of a particle, over what fall, start, walls and loads explain, at which a step counts as gone wrong; "
+        "of a sheet five times that" },
+      n.speed_jump, above(1.0));
 }
 
 template <class V>

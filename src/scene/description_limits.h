@@ -31,6 +31,13 @@ inline Limits positive()
   limits.lower_open = true;
   return limits;
 }
+inline Limits above(double lower)
+{
+  Limits limits;
+  limits.lower = lower;
+  limits.lower_open = true;
+  return limits;
+}
 inline Limits non_negative()
 {
   Limits limits;

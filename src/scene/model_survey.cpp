@@ -16,8 +16,8 @@ namespace {
 constexpr double bound_valid_cells = 0.1;
 constexpr int bound_valid_steps = 50;
 
-/// By how much a consistent mass matrix raises the largest squared frequency: its smallest eigenvalue relative to the
-/// lumped one is at worst the lumped part of it.
+/// By how much a consistent mass matrix raises the largest squared frequency and damping rate: its smallest eigenvalue
+/// relative to the lumped one is at worst the lumped part of it.
 double stiffening(const mpm::Discretisation& method)
 {
   return method.mass == mpm::MassMatrix::consistent ? 1.0 / mpm::ConsistentMass<2>::lumped_part : 1.0;
@@ -25,6 +25,9 @@ double stiffening(const mpm::Discretisation& method)
 
 /// A particle with less of its volume at the start than this is no soil and no slurry any more.
 constexpr double least_volume = 0.05;
+
+/// The same of a body as a whole, and the other way: sand that flies apart takes up more.
+constexpr double least_body_volume = 0.35, most_body_volume = 15.0;
 
 bool squeezed(const mpm::Particles<2>& particles, std::size_t p)
 {
@@ -99,6 +102,7 @@ void Model::survey()
   };
   for (const Body& body : now_.bodies)
     take(body.name, body.field, body.particles, true);
+  now_.fastest_of_bodies = std::sqrt(fastest_square);
   for (const ModelSheet& sheet : now_.sheets)
     take(sheet.name, sheet.field, sheet.sheet.nodes(), false);
   now_.fastest = std::sqrt(fastest_square);
@@ -154,8 +158,9 @@ void Model::bound_time_step()
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       assemble_bound(f);
       const mpm::FrequencyBound<2>::Result bound = fields_[f].bound.bound();
+      const double stiffer = stiffening(method_);
       now_.bound_dt = std::min(
-          now_.bound_dt, mpm::stable_step(stiffening(method_) * bound.frequency_square, bound.damping_rate, method_));
+          now_.bound_dt, mpm::stable_step(stiffer * bound.frequency_square, stiffer * bound.damping_rate, method_));
     }
     now_.bound_known = true;
     now_.steps_since_bound = 0;
@@ -167,7 +172,7 @@ void Model::bound_time_step()
     stable_dt_ = std::min(stable_dt_, max_travel_ / now_.fastest);
 }
 
-Failure Model::fastest() const
+Failure Model::fastest(bool sheets_too) const
 {
   Failure failure;
   double fastest = -1.0;
@@ -183,9 +188,39 @@ Failure Model::fastest() const
   };
   for (const Body& body : now_.bodies)
     look(body.name, body.particles);
-  for (const ModelSheet& sheet : now_.sheets)
-    look(sheet.name, sheet.sheet.nodes());
+  if (sheets_too)
+    for (const ModelSheet& sheet : now_.sheets)
+      look(sheet.name, sheet.sheet.nodes());
   return failure;
+}
+
+/// What has lost its shape so far that its law and its loads mean nothing any more.
+Failure Model::distortion() const
+{
+  for (const Body& body : now_.bodies) {
+    double volume = 0.0, start = 0.0;
+    std::size_t worst = 0;
+    const auto ratio = [&](std::size_t p) { return body.particles.volume[p] / body.particles.initial_volume[p]; };
+    for (std::size_t p = 0; p < body.particles.size(); ++p) {
+      volume += body.particles.volume[p];
+      start += body.particles.initial_volume[p];
+      worst = std::abs(std::log(ratio(p))) > std::abs(std::log(ratio(worst))) ? p : worst;
+    }
+    if (volume < least_body_volume * start)
+      return { fmt::format("{} is squeezed to {:.2g} of its volume: it is too soft for what is on it", body.name,
+                           volume / start),
+               body.position(worst), 0.0 };
+    if (volume > most_body_volume * start)
+      return { fmt::format("{} has swollen to {:.3g} times its volume", body.name, volume / start),
+               body.position(worst), 0.0 };
+  }
+  for (std::size_t t = 0; t < now_.tractions.size(); ++t)
+    if (const std::optional<std::uint32_t> owner = now_.tractions[t].torn()) {
+      const Body& body = now_.bodies[traction_body_[t]];
+      return { fmt::format("the boundary of {} is torn at particle {}, and a traction with it", body.name, *owner),
+               body.position(body.row[*owner]), 0.0 };
+    }
+  return {};
 }
 
 }  // namespace geocontainer_mpm::scene

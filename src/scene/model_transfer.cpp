@@ -114,10 +114,8 @@ double Model::load_power(double time_s) const
       for (std::size_t p = 0; p < body.particles.size(); ++p)
         power += body.particles.force[0][p] * body.particles.velocity[0][p] +
                  body.particles.force[1][p] * body.particles.velocity[1][p];
-  for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
-    const Body& body = now_.bodies[traction_body_[t]];
-    power += now_.tractions[t].power(body.particles, body.row, time_s);
-  }
+  for (const Traction& traction : now_.tractions)
+    power += traction.power(time_s);
   for (const ModelSheet& sheet : now_.sheets)
     power += sheet.sheet.external_power();
   if (!gravity_table_.empty())

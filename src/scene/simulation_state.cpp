@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "explained_speed.h"
+
 namespace geocontainer_mpm::scene {
 namespace {
 
@@ -23,6 +25,25 @@ constexpr int steps_between_checkpoints = 32;
 /// Energy from nowhere below this part of what is stored is not looked at: near rest the books of friction and of
 /// grains that part and meet are not exact, while what is unstable grows through any bound.
 constexpr double negligible_energy = 1e-3;
+/// Over a whole run, in which errors of either sign should have met, this part of what is allowed between two looks.
+constexpr double whole_run = 0.5;
+/// A taut, light sheet that snaps back is faster than what hangs on it.
+constexpr double sheet_over_body = 5.0;
+
+/// Energy that nobody paid for. What the transfers between particles and grid have taken is not counted against it: it
+/// is numerical itself, and with usf and musl the stress sees other velocities than the forces.
+double from_nowhere(const EnergyFrame& e)
+{
+  return e.unbalanced - e.dissipated_transfer;
+}
+
+/// Half the sum of all changes, J/m.
+double exchanged(const EnergyFrame& then, const EnergyFrame& now)
+{
+  return 0.5 * (std::abs(now.kinetic - then.kinetic) + std::abs(now.elastic - then.elastic) +
+                std::abs(now.potential - then.potential) + std::abs(now.dissipated - then.dissipated) +
+                std::abs(now.work_in - then.work_in));
+}
 
 ChangingTimes changing_times(const SceneDescription& scene)
 {
@@ -68,6 +89,7 @@ Simulation::State::State(const SceneDescription& description, int threads)
 {
   settle();
   settled = model.state();
+  explained_speed_ = explained_speed(scene, model);
   progress.mean_force.assign(model.boundaries().size(), Vec2::Zero());
   progress.interval_start = model.state().boundary_totals;
   fresh_progress = progress;
@@ -178,6 +200,7 @@ bool Simulation::State::output_reached()
 void Simulation::State::begin()
 {
   output_reached();
+  progress.start = model.energy();
   save();
 }
 
@@ -251,8 +274,9 @@ bool Simulation::State::step_once(Advance& result)
   const double dt = step_length(model.stable_dt(progress.time_s)), before = progress.time_s, after = before + dt;
   if (scene.hull && after >= opening.known_until_s())
     return false;
-  const StepStatus status = model.step({ before, dt, motion.poses(before, angles_at(before)),
-                                         motion.poses(after, angles_at(after)), scene.numerics.damping_per_s });
+  const StepInput input{ before, dt, motion.poses(before, angles_at(before)), motion.poses(after, angles_at(after)),
+                         scene.numerics.damping_per_s };
+  const StepStatus status = model.step(input);
   count_step(dt);
   if (!status.ok) {
     result = undo(status.failure);
@@ -260,10 +284,8 @@ bool Simulation::State::step_once(Advance& result)
   }
   const bool output_due = progress.time_s >= output_time_s() - same_instant_s;
   const bool look = output_due || steps_since_checkpoint_ >= steps_between_checkpoints;
-  if (look && energy_jumped(model.energy())) {
-    Failure failure = model.fastest();
-    failure.reason = "energy came from nowhere; " + failure.reason;
-    result = undo(failure);
+  if (const std::optional<Failure> wrong = find_wrong(input, look)) {
+    result = undo(*wrong);
     return true;
   }
   if (model.rms_velocity() > scene.numerics.rest_velocity_m_per_s)
@@ -282,18 +304,43 @@ bool Simulation::State::step_once(Advance& result)
   return true;
 }
 
-/// Has energy appeared since the last checkpoint that nothing accounts for? What the transfers between particles and
-/// grid have taken is not counted against it: it is numerical itself, and with usf and musl the stress sees other
-/// velocities than the forces. Compared with the motion that there was and what changed hands meanwhile.
-bool Simulation::State::energy_jumped(const EnergyFrame& now) const
+/// What a step did that nothing explains; what costs more to find only where `look` says so.
+std::optional<Failure> Simulation::State::find_wrong(const StepInput& step, bool look)
+{
+  progress.wall_speed = std::max(progress.wall_speed, fastest_wall(model, step));
+  const double explained = explained_speed_ + progress.wall_speed, limit = scene.numerics.speed_jump * explained;
+  const bool bodies = model.state().fastest_of_bodies > limit;
+  if (bodies || model.state().fastest > sheet_over_body * limit) {
+    Failure failure = model.fastest(!bodies);
+    failure.reason += fmt::format(" where {:.3g} can be explained", explained);
+    return failure;
+  }
+  if (!look)
+    return std::nullopt;
+  Failure failure = model.distortion();
+  if (!failure.reason.empty())
+    return failure;
+  if (!energy_jumped(model.energy()))
+    return std::nullopt;
+  failure = model.fastest(true);
+  failure.reason = "energy came from nowhere; " + failure.reason;
+  return failure;
+}
+
+/// Has energy appeared that nothing accounts for: since the last checkpoint, compared with the motion that there was
+/// and what changed hands meanwhile, or since the start, compared with the most that changed hands?
+bool Simulation::State::energy_jumped(const EnergyFrame& now)
 {
   const EnergyFrame& then = checkpoint_->energy;
-  const double from_nowhere = (now.unbalanced - now.dissipated_transfer) - (then.unbalanced - then.dissipated_transfer);
-  const double exchanged = 0.5 * (std::abs(now.kinetic - then.kinetic) + std::abs(now.elastic - then.elastic) +
-                                  std::abs(now.potential - then.potential) +
-                                  std::abs(now.dissipated - then.dissipated) + std::abs(now.work_in - then.work_in));
-  const double negligible = negligible_energy * (now.kinetic + now.elastic);
-  return !(from_nowhere <= scene.numerics.energy_jump * (then.kinetic + exchanged) + negligible);
+  const double part = scene.numerics.energy_jump, negligible = negligible_energy * (now.kinetic + now.elastic);
+  const auto jumped = [&](double gain, double most) { return !(gain <= most + negligible); };
+  if (jumped(from_nowhere(now) - from_nowhere(then), part * (then.kinetic + exchanged(then, now))))
+    return true;
+  EnergyFrame start = progress.start;
+  start.kinetic = model.state().ledger.kinetic_at_start;  // known since the first step
+  progress.turnover = std::max(progress.turnover, exchanged(start, now));
+  const double there = start.kinetic + start.elastic + 0.5 * model.soil_mass() * push_out_speed * push_out_speed;
+  return jumped(from_nowhere(now), whole_run * part * (there + progress.turnover));
 }
 
 void Simulation::State::save()

@@ -30,6 +30,9 @@ struct Simulation::State {
     std::uint64_t retries = 0;
     int halvings = 0;         ///< steps are shortened by this power of two
     double doubtful_s = 0.0;  ///< where a step went wrong last
+    double wall_speed = 0.0;  ///< of rigid surfaces, the largest so far, m/s
+    EnergyFrame start;        ///< the balance at the start
+    double turnover = 0.0;    ///< the most energy that has changed hands since the start, J/m
     Failure failure;
     bool stopped = false;
   };
@@ -72,11 +75,13 @@ private:
   double still_for_s() const;
   double next_change_s(double time_s) const;
   double step_length(double stable_dt) const;
-  bool energy_jumped(const EnergyFrame& now) const;
+  std::optional<Failure> find_wrong(const StepInput& step, bool look);
+  bool energy_jumped(const EnergyFrame& now);
   void save();
   Advance undo(const Failure& failure);
   void count_step(double dt);
 
+  double explained_speed_ = 0.0;  ///< m/s, without rigid surfaces
   std::optional<Checkpoint> checkpoint_;
   int steps_since_checkpoint_ = 0;
 };

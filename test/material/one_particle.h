@@ -42,7 +42,6 @@ public:
     elastic_energy = other.elastic_energy;
     dissipated = other.dissipated;
     work = other.work;
-    volume_defect = other.volume_defect;
     return *this;
   }
 
@@ -98,11 +97,10 @@ public:
   {
     set_entries(gradient_, h / dt);
     const Eigen::Matrix3d before = rotation(h) * stress() * rotation(h).transpose();
-    const double old_volume = volume, old_density = elastic_energy / volume;
+    const double old_volume = volume;
     law_->update(batch_, dt, 0, 1);
     const double mid = 0.5 * (old_volume + volume);
     work += mid * 0.5 * (before + stress()).cwiseProduct(strain(h)).sum();
-    volume_defect += 0.5 * (old_density + elastic_energy / volume) * (volume - old_volume);
   }
 
   Stiffness stiffness() const { return law_->stiffness(batch_, 0, 1); }
@@ -129,8 +127,7 @@ public:
   }
 
   double volume = 1.0, bank = 0.0, elastic_energy = 0.0, dissipated = 0.0;
-  double work = 0.0;           ///< trapezoidal work done on the particle, J
-  double volume_defect = 0.0;  ///< sum of e dV: what V e is not a potential for in a Cauchy-stress law, J
+  double work = 0.0;  ///< trapezoidal work done on the particle, J
 
 private:
   void set_components(const Eigen::Matrix3d& s)

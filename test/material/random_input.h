@@ -109,7 +109,7 @@ OneParticle<Dim> random_state(const Parameters& parameters)
     particle.set_stress(random_stress<Dim>(stress_size_pa));
     particle.step(Mat<Dim>::Zero());  // one step at rest returns any stress to the yield surface
   }
-  particle.work = particle.dissipated = particle.volume_defect = 0.0;
+  particle.work = particle.dissipated = 0.0;
   return particle;
 }
 

@@ -107,6 +107,27 @@ TYPED_TEST(Separation, ALoadedParticleComesBackToItsStressAndVolume)
   EXPECT_LT(std::abs(particle.dissipated), 10 * 2 * 3.1e-5 * 3.1e-5 * 1e7);
 }
 
+// Ten times the volume is as far apart as grains are counted: from there on the volume is theirs alone, and it is from
+// there that they come back.
+TYPED_TEST(Separation, AGrainFarApartGrowsNoMore)
+{
+  constexpr int Dim = TypeParam::value;
+  OneParticle<Dim> particle(sand());
+  const double contact = particle.volume;
+  for (int i = 0; i < 1000; ++i)
+    particle.step(isotropic<Dim>(1.01));
+  EXPECT_NEAR(particle.volume, 10.0 * contact, 1e-12 * contact);
+  EXPECT_NEAR(particle.bank, std::log(10.0), 1e-15);
+  EXPECT_EQ(particle.stress().norm(), 0.0);
+  EXPECT_EQ(particle.dissipated, 0.0);
+  const double ratio = std::pow(0.999 * contact / particle.volume, 1.0 / 500.0);
+  for (int i = 0; i < 500; ++i)
+    particle.step(isotropic<Dim>(ratio));
+  EXPECT_EQ(particle.bank, 0.0);
+  EXPECT_NEAR(particle.volume, 0.999 * contact, 1e-12 * contact);
+  EXPECT_LT(principal(particle.stress())(0), 0.0);
+}
+
 TYPED_TEST(Separation, ShearingWhileApartBuildsNoStress)
 {
   constexpr int Dim = TypeParam::value;

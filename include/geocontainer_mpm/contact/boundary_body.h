@@ -22,6 +22,9 @@ public:
   double friction() const { return friction_; }
   bool closed() const { return surface_.closed(); }
   std::size_t size() const { return reference_.size(); }
+  /// Box around the surface before any motion, m.
+  const Vec2& reference_lower() const { return reference_lower_; }
+  const Vec2& reference_upper() const { return reference_upper_; }
   /// Position before any motion, m.
   const Vec2& reference(std::size_t particle) const { return reference_[particle]; }
   /// Position at the start of the step: the exact rigid motion of the reference, m.

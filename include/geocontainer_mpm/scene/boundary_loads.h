@@ -2,6 +2,7 @@
 /// Tractions on the boundary of bodies, and grid nodes that are held.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geocontainer_mpm/mpm/discretisation.h"
@@ -27,16 +28,22 @@ public:
   /// Adds the forces at a time; `row[id]` is where a particle stands now. Returns their sum, N/m.
   Vec2 add_to(mpm::Grid<2>& grid, mpm::Shape shape, const mpm::Particles<2>& particles,
               const std::vector<std::uint32_t>& row, double time_s) const;
-  /// Power of the forces at a time on the particles' present velocity, W/m.
-  double power(const mpm::Particles<2>& particles, const std::vector<std::uint32_t>& row, double time_s) const;
+  /// Power of the forces at a time on the pieces' velocity in the last step, W/m. That is by the particles' way: with
+  /// FLIP they have another velocity, which no force on the grid works on.
+  double power(double time_s) const;
   /// Carries the pieces along with the last step of `dt`.
   void move(const mpm::Particles<2>& particles, const std::vector<std::uint32_t>& row, double dt);
+  /// The particle at which the boundary is stretched so far that there is no surface to act on any more, if any.
+  std::optional<std::uint32_t> torn() const;
 
 private:
   struct Piece {
     std::uint32_t owner;  ///< id of the particle
     Vec2 offset;          ///< of the piece's middle from the particle, m
     Vec2 area;            ///< outward, m (per unit width)
+    double length;        ///< at the start, m
+    Vec2 place;           ///< of the particle, m
+    Vec2 velocity;        ///< of the piece in the last step, m/s
   };
   Vec2 force(const Piece& piece, double factor) const;
 

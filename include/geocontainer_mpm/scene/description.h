@@ -50,6 +50,7 @@ struct NumericsDescription {
   double rest_time_s = 0.5;             ///< how long it must stay below, s, > 0
   int max_halvings = 6;                 ///< how often a step that went wrong is halved before the run ends, [0, 20]
   double energy_jump = 0.1;             ///< energy from nowhere, over that present or exchanged, that undoes steps, > 0
+  double speed_jump = 5.0;  ///< speed over what can be explained that undoes steps, > 1; see explained_speed.h
 };
 
 struct Box {

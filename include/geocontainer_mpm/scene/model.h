@@ -130,6 +130,7 @@ struct ModelState {
   bool kinetic_known = false;
   double last_dt = 0.0;             ///< s
   double fastest = 0.0;             ///< m/s
+  double fastest_of_bodies = 0.0;   ///< m/s
   double travel_since_sort = 0.0;   ///< m
   double travel_since_bound = 0.0;  ///< m, since the stability bound was last assembled
   int steps_since_bound = 0;
@@ -178,7 +179,9 @@ public:
   double momentum_error() const;
   std::uint64_t digest() const;
   /// Sentence on what is fastest: particle, body, place; for reports of a run that went wrong.
-  Failure fastest() const;
+  Failure fastest(bool sheets_too) const;
+  /// A body far from its volume, or a load on a torn boundary; an empty reason: none.
+  Failure distortion() const;
   const StageTimes& stages() const { return stages_; }
 
 private:
