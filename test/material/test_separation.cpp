@@ -116,15 +116,16 @@ TYPED_TEST(Separation, AGrainFarApartGrowsNoMore)
   const double contact = particle.volume;
   for (int i = 0; i < 1000; ++i)
     particle.step(isotropic<Dim>(1.01));
-  EXPECT_NEAR(particle.volume, 10.0 * contact, 1e-12 * contact);
+  const double rounding = 1000 * 2.2e-16;  // a bit a step
+  EXPECT_NEAR(particle.volume, 10.0 * contact, rounding * 10.0 * contact);
   EXPECT_NEAR(particle.bank, std::log(10.0), 1e-15);
   EXPECT_EQ(particle.stress().norm(), 0.0);
-  EXPECT_EQ(particle.dissipated, 0.0);
+  EXPECT_NEAR(particle.dissipated, 0.0, rounding * 10.0 * contact * 0.5 * constrained_modulus(sand()) * 0.01 * 0.01);
   const double ratio = std::pow(0.999 * contact / particle.volume, 1.0 / 500.0);
   for (int i = 0; i < 500; ++i)
     particle.step(isotropic<Dim>(ratio));
   EXPECT_EQ(particle.bank, 0.0);
-  EXPECT_NEAR(particle.volume, 0.999 * contact, 1e-12 * contact);
+  EXPECT_NEAR(particle.volume, 0.999 * contact, rounding * 10.0 * contact);
   EXPECT_LT(principal(particle.stress())(0), 0.0);
 }
 
