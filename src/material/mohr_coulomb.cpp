@@ -73,12 +73,14 @@ struct MohrCoulomb<Dim>::Step {
   double volume_change;  ///< det F - 1
   double old_volume;
   double old_energy;  ///< stored energy per volume before the step, J/m^3
+  double old_stored;  ///< stored energy before the step, J(/m)
 };
 
 template <>
 struct MohrCoulomb<2>::Chunk {
   double e00[chunk_size], e11[chunk_size], e01[chunk_size];
-  double volume_change[chunk_size], old_volume[chunk_size], old_energy[chunk_size], excess[chunk_size];
+  double volume_change[chunk_size], old_volume[chunk_size], old_energy[chunk_size], old_stored[chunk_size];
+  double excess[chunk_size];
   void set_strain(std::size_t i, const Symmetric<2>& e)
   {
     e00[i] = e.s00;
@@ -91,7 +93,8 @@ struct MohrCoulomb<2>::Chunk {
 template <>
 struct MohrCoulomb<3>::Chunk {
   double e00[chunk_size], e11[chunk_size], e22[chunk_size], e01[chunk_size], e02[chunk_size], e12[chunk_size];
-  double volume_change[chunk_size], old_volume[chunk_size], old_energy[chunk_size], excess[chunk_size];
+  double volume_change[chunk_size], old_volume[chunk_size], old_energy[chunk_size], old_stored[chunk_size];
+  double excess[chunk_size];
   void set_strain(std::size_t i, const Symmetric<3>& e)
   {
     e00[i] = e.s00;
@@ -113,8 +116,9 @@ void MohrCoulomb<Dim>::update(const Batch<Dim>& batch, double dt, std::size_t be
     elastic_pass(batch, dt, first, first + count, chunk);
     for (std::size_t i = 0; i < count; ++i)
       if (chunk.excess[i] > 0.0)
-        correct(batch, first + i,
-                { chunk.strain(i), chunk.volume_change[i], chunk.old_volume[i], chunk.old_energy[i] });
+        correct(
+            batch, first + i,
+            { chunk.strain(i), chunk.volume_change[i], chunk.old_volume[i], chunk.old_energy[i], chunk.old_stored[i] });
   }
 }
 
@@ -141,6 +145,7 @@ void MohrCoulomb<Dim>::elastic_pass(const Batch<Dim>& batch, double dt, std::siz
     chunk.volume_change[i] = step.volume_change;
     chunk.old_volume[i] = old_volume;
     chunk.old_energy[i] = old_energy;
+    chunk.old_stored[i] = energy[p];
     chunk.excess[i] = beyond > bank[p] ? beyond : bank[p];
     access.set_stress(p, trial);
     volume[p] = new_volume;
@@ -217,10 +222,9 @@ void MohrCoulomb<Dim>::correct(const Batch<Dim>& batch, std::size_t particle, co
   }
   const double mid_volume = step.old_volume * (1.0 + 0.5 * step.volume_change);
   const double work = 0.5 * contract(add(old, 1.0, stress), step.strain);
-  double& stored = batch.elastic_energy[particle];
-  const double before = stored - mid_volume * (energy_density(elasticity_, full_trial) - step.old_energy);
-  stored = energy > 0.0 ? before + batch.volume[particle] * energy - step.old_volume * step.old_energy : 0.0;
-  batch.dissipated[particle] += mid_volume * work - (stored - before);
+  const double stored = energy > 0.0 ? step.old_stored + mid_volume * (energy - step.old_energy) : 0.0;
+  batch.elastic_energy[particle] = stored;
+  batch.dissipated[particle] += mid_volume * work - (stored - step.old_stored);
   if (energy == 0.0 && bank > most_apart) {
     batch.volume[particle] *= std::exp(most_apart - bank);
     bank = most_apart;

@@ -22,12 +22,11 @@ namespace geocontainer_mpm::material {
 /// bodies that it has left, and its bank and its volume, with which it counts in means, grow no more.
 ///
 /// **Energy.** The work of a step is trapezoidal, V_mid (sigma_old + sigma_new) / 2 : de: what a leapfrog scheme
-/// exchanges with kinetic energy, so that the balance closes. In an elastic step all of it is stored, which is V_mid
-/// (e_new - e_old) with e = sigma : C^-1 : sigma / 2: for a Cauchy-stress law V e itself is no potential, and was a
-/// sixth short where sand was pressed to seven tenths of its volume. In a step that yields or opens the change of V e
-/// is stored, since flow takes the energy of what it adds to the volume along, and the rest of the work is dissipated:
-/// nothing in an elastic step, and >= 0 except in a step in which the stress unloads and then yields, by at most the
-/// product of that step's stress and strain increments. Without stress nothing is stored.
+/// exchanges with kinetic energy, so that the balance closes. V_mid (e_new - e_old) of it is stored, with e = sigma :
+/// C^-1 : sigma / 2, and the rest dissipated: nothing in an elastic step, and >= 0 except in a step in which the stress
+/// unloads and then yields, by at most the product of that step's stress and strain increments. Stored energy is this
+/// sum and not V e, which for a Cauchy-stress law is no potential: it was a sixth short where sand was pressed to seven
+/// tenths of its volume. Without stress nothing is stored; what flow at stress has made of the sum is then dissipated.
 template <int Dim>
 class MohrCoulomb final : public Law<Dim> {
 public:

@@ -141,8 +141,11 @@ TYPED_TEST(EveryLaw, NeverGivesEnergyAway)
   EXPECT_TRUE(rc::check("dissipation", [] {
     const Parameters parameters = TypeParam::random();
     OneParticle<Dim> particle = random_state<Dim>(parameters);
+    // What a Cauchy stress that is put on at one volume and taken off at another gives back beyond what was stored.
+    double beyond = 0.0;
     for (int i = 0; i < 10; ++i) {
       const Mat<Dim> h = random_gradient<Dim>(2e-3);
+      const double largest = particle.stress().squaredNorm(), volume = particle.volume;
       const Eigen::Matrix3d r = OneParticle<Dim>::rotation(h), old = r * particle.stress() * r.transpose();
       const double before = particle.dissipated;
       particle.step(h);
@@ -157,7 +160,10 @@ TYPED_TEST(EveryLaw, NeverGivesEnergyAway)
       RC_ASSERT(particle.dissipated - before >= -slack);
       if (!TypeParam::fluid && TypeParam::name != LawName::mohr_coulomb)
         RC_ASSERT(particle.dissipated == 0.0);
-      RC_ASSERT(particle.elastic_energy >= 0.0);
+      if (TypeParam::rate_form)  // e = sigma : C^-1 : sigma / 2 is at most 3 / 4 of sigma : sigma / E
+        beyond += 0.75 * std::max(largest, particle.stress().squaredNorm()) / parameters.young_modulus_pa *
+                  std::abs(particle.volume - volume);
+      RC_ASSERT(particle.elastic_energy >= -beyond);
     }
   }));
 }
@@ -177,8 +183,7 @@ TYPED_TEST(RateLaw, ClosesTheEnergyBalanceInAnySteps)
       particle.step(random_gradient<Dim>(2e-3));
       turnover += std::abs(particle.work - before) + particle.elastic_energy;
     }
-    const double residual =
-        particle.work - (particle.elastic_energy - start) - particle.dissipated;
+    const double residual = particle.work - (particle.elastic_energy - start) - particle.dissipated;
     RC_ASSERT(std::abs(residual) <= 1e-12 * turnover);
   }));
 }

@@ -116,15 +116,16 @@ TYPED_TEST(Separation, AGrainFarApartGrowsNoMore)
   const double contact = particle.volume;
   for (int i = 0; i < 1000; ++i)
     particle.step(isotropic<Dim>(1.01));
-  EXPECT_NEAR(particle.volume, 10.0 * contact, 1e-12 * contact);
+  const double rounding = 1000 * 2.2e-16;  // a bit a step
+  EXPECT_NEAR(particle.volume, 10.0 * contact, rounding * 10.0 * contact);
   EXPECT_NEAR(particle.bank, std::log(10.0), 1e-15);
   EXPECT_EQ(particle.stress().norm(), 0.0);
-  EXPECT_EQ(particle.dissipated, 0.0);
+  EXPECT_NEAR(particle.dissipated, 0.0, rounding * 10.0 * contact * 0.5 * constrained_modulus(sand()) * 0.01 * 0.01);
   const double ratio = std::pow(0.999 * contact / particle.volume, 1.0 / 500.0);
   for (int i = 0; i < 500; ++i)
     particle.step(isotropic<Dim>(ratio));
   EXPECT_EQ(particle.bank, 0.0);
-  EXPECT_NEAR(particle.volume, 0.999 * contact, 1e-12 * contact);
+  EXPECT_NEAR(particle.volume, 0.999 * contact, rounding * 10.0 * contact);
   EXPECT_LT(principal(particle.stress())(0), 0.0);
 }
 
@@ -163,19 +164,22 @@ TYPED_TEST(Separation, ATornCohesiveSoilUnloadsThenClosesWithoutStressAndWithout
     const double elastic_strain = expected.sum() * (1.0 - 2.0 * soil.poisson_ratio) / soil.young_modulus_pa;
     EXPECT_NEAR(particle.bank + elastic_strain, std::log(particle.volume), 1e-8);
     EXPECT_GE(torn, 0.99 * cutoff * particle.bank);
+    // The stress comes off at a volume that the gap has made larger than that at which it was put on: so much more
+    // comes back than was stored. The rest is second order in the step.
+    const double least = torn - 1.01 * particle.elastic_energy * (particle.volume - 1.0) - 1e-5 * torn;
 
     drive(500, 1.0 - apart);
     EXPECT_EQ(particle.stress().norm(), 0.0);
     EXPECT_NEAR(particle.bank, std::log(particle.volume), 1e-8);
     drive(10, 1.0 + apart);
-    EXPECT_EQ(particle.stress().norm(), 0.0);             // torn: does not pull
-    EXPECT_GE(particle.dissipated, torn * (1.0 - 1e-5));  // second order in the step
+    EXPECT_EQ(particle.stress().norm(), 0.0);  // torn: does not pull
+    EXPECT_GE(particle.dissipated, least);
     while (particle.bank > 0.0) {
       drive(1, 1.0 - apart);
       EXPECT_LE(principal(particle.stress())(2), 0.0);
     }
     EXPECT_NEAR(particle.volume, 1.0, 2.0 * apart);
-    EXPECT_GE(particle.dissipated, torn * (1.0 - 1e-5));  // second order in the step
+    EXPECT_GE(particle.dissipated, least);
     drive(1, 1.0 - apart);
     EXPECT_LT(particle.stress()(0, 0), 0.0);
   }
