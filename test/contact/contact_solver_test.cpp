@@ -254,7 +254,9 @@ TEST(ContactSolver, AMovingWallDoesTheWorkItReports)
     const double kinetic = patch.kinetic();
     const Solved solved = solve({ body }, patch);
     RC_ASSERT((patch.velocity_at(Vec2::Zero()) - pushed).dot(normal) > -1e-12);
-    RC_ASSERT(std::abs(solved.boundary[0].work - solved.boundary[0].impulse.dot(pushed)) < 1e-12);
+    // The wall's velocity is the difference of places a few metres off, over dt: 1e-15 m / 1e-3 s of round-off.
+    RC_ASSERT(std::abs(solved.boundary[0].work - solved.boundary[0].impulse.dot(pushed)) <
+              1e-12 * (1.0 + solved.boundary[0].impulse.norm()));
     RC_ASSERT(std::abs(patch.kinetic() - kinetic - solved.boundary[0].work + solved.sums.dissipated) < 1e-11);
     RC_ASSERT(solved.sums.dissipated > -1e-12);
   }));

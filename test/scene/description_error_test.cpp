@@ -42,7 +42,7 @@ const Bad bad_keys[] = {
   { "misspelt", "young_modulus_pa: 3.0e6", "young_modulus_Pa: 3.0e6", "bad.yaml:13", "materials.sand.young_modulus_Pa",
     "3.0e6", "unknown key; did you mean young_modulus_pa?" },
   { "without its unit", "end_s: 2", "end: 2", "bad.yaml:3", "time.end", "2", "did you mean end_s?" },
-  { "unknown section", "", "water:\n  level_m: 0\n", "bad.yaml:65", "water", "a map of keys", "allowed: name" },
+  { "unknown section", "", "tide:\n  level_m: 0\n", "bad.yaml:65", "tide", "a map of keys", "allowed: name" },
   { "unknown, nothing near", "end_s: 2", "end_s: 2\n  qqq: 1", "bad.yaml:4", "time.qqq", "1",
     "allowed: end_s, output_interval_s" },
   { "missing", "    poisson_ratio: 0.3\n", "", "bad.yaml:10", "materials.sand.poisson_ratio", "",

@@ -106,6 +106,7 @@ numerics:
   rest_time_s: 0.4
   max_halvings: 4
   energy_jump: 0.05
+  speed_jump: 6
 materials:
   sand:
     law: mohr_coulomb
@@ -258,6 +259,14 @@ probes:
   error: { manufactured: whirl }
 outcome:
   hung_up_after_s: 4
+)";
+
+/// Water needs a gravity, which full_scene cannot have.
+inline const std::string wet_scene = small_scene + R"(water:
+  density_kg_per_m3: 1025
+  draught_m: 2
+  drag_coefficient: 1.1
+  added_mass_coefficient: 0.5
 )";
 
 /// `scene` with its first `from` replaced by `to`; `from` empty: `to` appended.

@@ -70,38 +70,44 @@ std::vector<Leaf> leaves_of(const std::string& scene)
 
 TEST(DescriptionKey, EveryOneIsTried)
 {
-  std::set<std::string> tried{ "gravity_table" };  // excludes gravity_m_per_s2
-  for (const Leaf& leaf : leaves_of(full_scene))
-    tried.insert(leaf.pattern);
+  std::set<std::string> tried{ "gravity_table", "water.level_m" };  // exclude gravity_m_per_s2 and water.draught_m
+  for (const std::string& scene : { full_scene, wet_scene })
+    for (const Leaf& leaf : leaves_of(scene))
+      tried.insert(leaf.pattern);
   const Grammar grammar;
   EXPECT_GT(grammar.values.size(), 100u);
   // Both ends of a sheet are the same struct; the one is held, the other is not.
   for (const std::string& key : grammar.values) {
     const bool other_end = key.find(".end.motion_table") != std::string::npos;
     EXPECT_TRUE(other_end || key.find(".start.force_") != std::string::npos || tried.count(key) == 1)
-        << key << " is missing in full_scene";
+        << key << " is missing in full_scene and wet_scene";
   }
 }
 
-TEST(DescriptionKey, IsWrittenAndReadBack)
+/// Scenes that hold every key.
+class DescriptionKeys : public testing::TestWithParam<const std::string*> {};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, DescriptionKeys, testing::Values(&full_scene, &wet_scene));
+
+TEST_P(DescriptionKeys, AreWrittenAndReadBack)
 {
-  const SceneDescription scene = parse_scene(full_scene, "full.yaml");
+  const SceneDescription scene = parse_scene(*GetParam(), "full.yaml");
   const std::string text = scene_text(scene);
   EXPECT_EQ(scene_text(parse_scene(text, "written.yaml")), text);
   std::set<std::string> written;
   for (const Leaf& leaf : leaves_of(text))
     written.insert(leaf.key);
-  for (const Leaf& leaf : leaves_of(full_scene))
+  for (const Leaf& leaf : leaves_of(*GetParam()))
     EXPECT_EQ(written.count(leaf.key), 1u) << leaf.key;
 }
 
-TEST(DescriptionKey, TakesAnOverride)
+TEST_P(DescriptionKeys, TakeAnOverride)
 {
   std::vector<std::string> same;
-  for (const Leaf& leaf : leaves_of(full_scene)) {
+  for (const Leaf& leaf : leaves_of(*GetParam())) {
     SCOPED_TRACE(leaf.key);
     try {
-      parse_scene(full_scene, "full.yaml", { leaf.key + "={ a: map }" });
+      parse_scene(*GetParam(), "full.yaml", { leaf.key + "={ a: map }" });
       ADD_FAILURE() << "a map was accepted as a value";
     } catch (const InputError& error) {
       EXPECT_EQ(error.key(), leaf.key);
@@ -109,7 +115,7 @@ TEST(DescriptionKey, TakesAnOverride)
     }
     same.push_back(leaf.key + "=" + leaf.text);
   }
-  EXPECT_EQ(scene_text(parse_scene(full_scene, "full.yaml", same)), scene_text(parse_scene(full_scene, "full.yaml")));
+  EXPECT_EQ(scene_text(parse_scene(*GetParam(), "full.yaml", same)), scene_text(parse_scene(*GetParam(), "full.yaml")));
 }
 
 TEST(DescriptionKey, OverrideReachesTablesListsAndOptionalValues)
