@@ -238,7 +238,7 @@ geotextile::SheetLayout sheet_path(const GeotextileDescription& sheet, const Sce
 
 geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene)
 {
-  const geotextile::SheetLayout path = sheet_path(sheet, scene);
+  geotextile::SheetLayout path = sheet_path(sheet, scene);
   if (!sheet.wrinkles)
     return path;
   const Wrinkles& wrinkles = *sheet.wrinkles;
