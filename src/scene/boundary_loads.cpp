@@ -124,46 +124,60 @@ std::optional<std::uint32_t> Traction::torn() const
   return std::nullopt;
 }
 
-SupportSums apply_support(const SupportDescription& support, double time_s, double kick, mpm::Grid<2>& grid)
+template <int Dim>
+SupportSums apply_support(const SupportDescription& support, double time_s, double kick, mpm::Grid<Dim>& grid)
 {
-  constexpr int mass_slot = mpm::Grid<2>::mass_slot;
+  constexpr int mass_slot = mpm::Grid<Dim>::mass_slot;
   Vec2 held = Vec2::Zero();
   if (!support.velocity_table.empty()) {
     const auto [held_y, held_z] = value_at<2>(support.velocity_table, time_s);
     held = { held_y, held_z };
   }
   const std::array<bool, 2> holds{ support.holds_y, support.holds_z };
-  const mpm::Window<2>& window = grid.window();
-  std::array<int, 2> begin, end;
+  const mpm::Window<Dim>& window = grid.window();
+  std::array<int, Dim> begin = window.begin, end = window.end;  // in space: all along
   for (int d = 0; d < 2; ++d) {
-    const auto slot = static_cast<std::size_t>(d);
-    const double low = (support.region.lower_m[d] - grid.origin()[d]) * grid.inverse_dx();
-    const double high = (support.region.upper_m[d] - grid.origin()[d]) * grid.inverse_dx();
-    begin[slot] = std::max(window.begin[slot], static_cast<int>(std::ceil(low - edge_tolerance)));
-    end[slot] = std::min(window.end[slot], static_cast<int>(std::floor(high + edge_tolerance)) + 1);
+    const int axis = y_axis<Dim> + d;
+    const auto slot = static_cast<std::size_t>(axis);
+    const double low = (support.region.lower_m[d] - grid.origin()[axis]) * grid.inverse_dx();
+    const double high = (support.region.upper_m[d] - grid.origin()[axis]) * grid.inverse_dx();
+    begin[slot] = std::max(begin[slot], static_cast<int>(std::ceil(low - edge_tolerance)));
+    end[slot] = std::min(end[slot], static_cast<int>(std::floor(high + edge_tolerance)) + 1);
   }
   SupportSums sums;
-  for (int i = begin[0]; i < end[0]; ++i)
-    for (int j = begin[1]; j < end[1]; ++j) {
-      const std::size_t n = grid.index({ i, j });
-      auto& node = grid.nodes()[n];
-      const double mass = node[mass_slot];
-      if (!(mass > 0.0))
+  const auto hold = [&](std::size_t n) {
+    auto& node = grid.nodes()[n];
+    const double mass = node[mass_slot];
+    if (!(mass > 0.0))
+      return;
+    sums.acted = true;
+    for (int d = 0; d < 2; ++d) {
+      if (!holds[static_cast<std::size_t>(d)])
         continue;
-      sums.acted = true;
-      for (int c = 0; c < 2; ++c) {
-        if (!holds[static_cast<std::size_t>(c)])
-          continue;
-        // Forces and support act in the same instant; see ContactSolver::solve.
-        const double after = node[c], before = after - kick / mass * grid.forces()[n][c];
-        const double impulse = mass * (held[c] - after);
-        sums.kinetic_change += 0.5 * impulse * (held[c] + after);
-        sums.work += impulse * held[c];
-        sums.dissipated += impulse * held[c] - 0.5 * impulse * (held[c] + before);
-        node[c] = held[c];
-      }
+      // Forces and support act in the same instant; see ContactSolver::solve.
+      const int c = y_axis<Dim> + d;
+      const double after = node[c], before = after - kick / mass * grid.forces()[n][c];
+      const double impulse = mass * (held[d] - after);
+      sums.kinetic_change += 0.5 * impulse * (held[d] + after);
+      sums.work += impulse * held[d];
+      sums.dissipated += impulse * held[d] - 0.5 * impulse * (held[d] + before);
+      node[c] = held[d];
     }
+  };
+  if constexpr (Dim == 2) {
+    for (int i = begin[0]; i < end[0]; ++i)
+      for (int j = begin[1]; j < end[1]; ++j)
+        hold(grid.index({ i, j }));
+  } else {
+    for (int i = begin[0]; i < end[0]; ++i)
+      for (int j = begin[1]; j < end[1]; ++j)
+        for (int k = begin[2]; k < end[2]; ++k)
+          hold(grid.index({ i, j, k }));
+  }
   return sums;
 }
+
+template SupportSums apply_support(const SupportDescription&, double, double, mpm::Grid<2>&);
+template SupportSums apply_support(const SupportDescription&, double, double, mpm::Grid<3>&);
 
 }  // namespace geocontainer_mpm::scene

@@ -30,6 +30,9 @@ void describe(V& v, SceneDescription& s)
           s.gravity_m_per_s2);
   v.section({ "time", required, "", "duration and output" }, s.time);
   v.section({ "grid", required, "", "background grid and its faces" }, s.grid);
+  v.section({ "space", optional, "",
+              "given: the scene is three-dimensional, and the section that all else draws in y and z reaches along x" },
+            s.space);
   v.section({ "numerics", optional, "", "discretisation, time stepping and rest" }, s.numerics);
   v.map({ "materials", optional, "", "constitutive laws by name" }, s.materials);
   v.map({ "bodies", optional, "", "bodies of particles by name; at least one body or geotextile" }, s.bodies);

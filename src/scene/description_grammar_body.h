@@ -135,6 +135,9 @@ void describe(V& v, BodyDescription& b)
 {
   v.value({ "material", required, "", "a name in `materials`" }, b.material, at_least(1));
   v.section({ "shape", required, "", "exactly one of the five below" }, b.shape);
+  v.value({ "along_m", optional, "m",
+            "[from, to]: in a scene with `space`, and there alone, the shape reaches so far along x, with flat ends" },
+          b.along_m);
   v.value({ "particles_per_cell", optional, "", "particles in each direction of a cell" }, b.particles_per_cell,
           closed(1, 4));
   v.value({ "jitter", optional, "",

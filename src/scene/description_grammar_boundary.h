@@ -100,6 +100,14 @@ void describe(V& v, GeotextileDescription& g)
   v.value({ "stiffness_n_per_m", linear ? required : optional, "N/m",
             "J (warp): force per width and unit strain; of no account with `force_strain_table`" },
           g.stiffness_n_per_m, linear ? positive() : non_negative());
+  v.value({ "stiffness_weft_n_per_m", optional, "N/m",
+            "in a scene with `space`, J along the barge; absent: as across it. Of no account with "
+            "`force_strain_weft_table`" },
+          g.stiffness_weft_n_per_m, positive());
+  v.value({ "force_strain_weft_table", optional, "1, N/m", "the same as `force_strain_table` along the barge" },
+          g.force_strain_weft_table, rows("strain, force"));
+  v.value({ "strength_weft_n_per_m", optional, "N/m", "tensile strength along the barge; absent: as across it" },
+          g.strength_weft_n_per_m, positive());
   v.value({ "mass_kg_per_m2", required, "kg/m2", "true mass: what gravity pulls" }, g.mass_kg_per_m2, positive());
   v.value(
       { "computational_mass_kg_per_m2", required, "kg/m2", "inertia used (mass scaling), not below `mass_kg_per_m2`" },
@@ -161,6 +169,10 @@ void describe(V& v, HullDescription& h)
   v.value({ "lip_radius_m", required, "m", "corners of the section are rounded with this radius" }, h.lip_radius_m,
           non_negative());
   v.value({ "friction", required, "", "Coulomb coefficient of the container on the hull" }, h.friction, non_negative());
+  v.value({ "along_m", optional, "m",
+            "[from, to]: in a scene with `space` the hopper between its end bulkheads, which part with the halves; "
+            "absent: no bulkheads" },
+          h.along_m);
   v.value({ "opening_table", optional, "s, rad, rad",
             "opening used when no log is given, times ascending from 0 or later, angles in the believable range of "
             "`signal`; empty: the hull stays closed" },

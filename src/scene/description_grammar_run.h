@@ -43,6 +43,20 @@ void describe(V& v, GridDescription& g)
 }
 
 template <class V>
+void describe(V& v, SpaceDescription& s)
+{
+  v.value({ "along_m", required, "m",
+            "[from, to]: extent along x of the space that material may occupy, a whole number of cells" },
+          s.along_m);
+  v.value({ "x_min", optional, "", "face towards aft" }, s.faces[0]);
+  v.value({ "x_max", optional, "", "face towards the bow" }, s.faces[1]);
+  v.value({ "symmetry", optional, "",
+            "which part of a scene that is its own mirror image is computed. `half`: y >= 0; `quarter`: x >= 0 and "
+            "y >= 0; the scene describes all of it" },
+          s.symmetry);
+}
+
+template <class V>
 void describe(V& v, NumericsDescription& n)
 {
   using mpm::Transfer;

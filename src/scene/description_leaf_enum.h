@@ -22,6 +22,12 @@ struct Words<FaceCondition> {
   };
 };
 template <>
+struct Words<Symmetry> {
+  static constexpr std::array<std::pair<Symmetry, const char*>, 3> list{
+    { { Symmetry::none, "none" }, { Symmetry::half, "half" }, { Symmetry::quarter, "quarter" } }
+  };
+};
+template <>
 struct Words<InitialStress> {
   static constexpr std::array<std::pair<InitialStress, const char*>, 4> list{ { { InitialStress::none, "none" },
                                                                                 { InitialStress::k0, "k0" },

@@ -18,9 +18,6 @@ using grammar::number_text;
 using grammar::refuse;
 using grammar::to_text;
 
-/// Beyond this a scene is a slip of the pen (a cell size in millimetres) and would end in a crash for lack of memory.
-constexpr double max_cells = 5e7;
-
 void check_grid(const GridDescription& grid)
 {
   const Vec2 cells = (grid.upper_m - grid.lower_m) / grid.cell_size_m;
@@ -147,6 +144,7 @@ void check_rules(const SceneDescription& scene)
   check_contacts(scene);
   check_probes(scene);
   check_water(scene);
+  check_space(scene);
 }
 
 }  // namespace geocontainer_mpm::scene

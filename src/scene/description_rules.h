@@ -24,6 +24,7 @@ void check_loads(const SceneDescription& scene);
 void check_contacts(const SceneDescription& scene);
 void check_probes(const SceneDescription& scene);
 void check_water(const SceneDescription& scene);
+void check_space(const SceneDescription& scene);
 
 // What several topics need.
 inline constexpr double relative_tolerance = 1e-9;
@@ -42,6 +43,9 @@ void check_simple(const std::string& key, const std::vector<Vec2>& vertices, boo
 
 /// Refuses corners of an open line that a rounding of this radius does not fit.
 void check_rounding(const std::string& key, double radius_m, const std::vector<Vec2>& line, const char* line_name);
+
+/// Beyond this a scene is a slip of the pen (a cell size in millimetres) and would end in a crash for lack of memory.
+inline constexpr double max_cells = 5e7;
 
 Eigen::AlignedBox2d space_of(const GridDescription& grid);
 void check_inside(const std::string& key, const Eigen::AlignedBox2d& box, const GridDescription& grid);

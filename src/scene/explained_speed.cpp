@@ -24,34 +24,37 @@ double gravity(const SceneDescription& scene)
   return strongest;
 }
 
-double speed_at_start(const Model& model)
+template <int Dim>
+double speed_at_start(const Model<Dim>& model)
 {
   double square = 0.0;
-  const auto look = [&](const mpm::Particles<2>& particles) {
+  const auto look = [&](const mpm::Particles<Dim>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p)
-      square = std::max(square, particles.velocity[0][p] * particles.velocity[0][p] +
-                                    particles.velocity[1][p] * particles.velocity[1][p]);
+      square = std::max(square, particles.velocity_of(p).squaredNorm());
   };
-  for (const Body& body : model.bodies())
+  for (const Body<Dim>& body : model.bodies())
     look(body.particles);
-  for (const ModelSheet& sheet : model.sheets())
+  for (const ModelSheet<Dim>& sheet : model.sheets())
     look(sheet.sheet.nodes());
   return std::sqrt(square);
 }
 
 /// Stress over impedance: what flies off when a stress is set free.
-double set_free(const SceneDescription& scene, const Model& model)
+template <int Dim>
+double set_free(const SceneDescription& scene, const Model<Dim>& model)
 {
   double speed = 0.0;
-  for (const Body& body : model.bodies()) {
-    const mpm::Particles<2>& particles = body.particles;
+  for (const Body<Dim>& body : model.bodies()) {
+    const mpm::Particles<Dim>& particles = body.particles;
     const double modulus = body.elastic.constrained();
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double stress = std::abs(particles.stress[0][p]) + std::abs(particles.stress[1][p]);
+      double stress = 0.0;
+      for (std::size_t d = 0; d < Dim; ++d)
+        stress += std::abs(particles.stress[d][p]);
       speed = std::max(speed, stress * std::sqrt(particles.volume[p] / (modulus * particles.mass[p])));
     }
   }
-  for (const ModelSheet& sheet : model.sheets()) {
+  for (const ModelSheet<Dim>& sheet : model.sheets()) {
     const GeotextileDescription& what = scene.geotextiles.at(sheet.name);
     for (const double tension : sheet.sheet.tension())
       speed = std::max(speed, tension / std::sqrt(what.stiffness_n_per_m * what.computational_mass_kg_per_m2));
@@ -104,7 +107,8 @@ double led_speed(const SceneDescription& scene)
 
 }  // namespace
 
-double explained_speed(const SceneDescription& scene, const Model& model)
+template <int Dim>
+double explained_speed(const SceneDescription& scene, const Model<Dim>& model)
 {
   for (const auto& [name, body] : scene.bodies)
     if (body.manufactured)
@@ -115,17 +119,23 @@ double explained_speed(const SceneDescription& scene, const Model& model)
                       std::min(loads * scene.time.end_s, std::sqrt(2.0 * loads * way)) + led_speed(scene));
 }
 
-double fastest_wall(const Model& model, const StepInput& step)
+template <int Dim>
+double fastest_wall(const Model<Dim>& model, const StepInput& step)
 {
   double way = 0.0;
   for (std::size_t b = 0; b < model.boundaries().size(); ++b) {
     // The way that a rigid motion makes is convex over the body, so that a corner of its box goes furthest.
-    const contact::BoundaryBody& body = model.boundaries()[b];
-    const Vec2 &lower = body.reference_lower(), &upper = body.reference_upper();
+    const contact::BoundaryBody<Dim>& body = model.boundaries()[b];
+    const Vec2 lower = in_section<Dim>(body.reference_lower()), upper = in_section<Dim>(body.reference_upper());
     for (const Vec2& corner : { lower, upper, Vec2(lower[0], upper[1]), Vec2(upper[0], lower[1]) })
       way = std::max(way, (step.end[b].apply(corner) - step.start[b].apply(corner)).norm());
   }
   return way / step.dt_s;
 }
+
+template double explained_speed(const SceneDescription&, const Model<2>&);
+template double explained_speed(const SceneDescription&, const Model<3>&);
+template double fastest_wall(const Model<2>&, const StepInput&);
+template double fastest_wall(const Model<3>&, const StepInput&);
 
 }  // namespace geocontainer_mpm::scene

@@ -12,9 +12,11 @@ constexpr double push_out_speed = 0.1;
 /// Of all but rigid surfaces, m/s: the sum of the speeds at the start, of what stress at the start can set free, of a
 /// fall through the whole grid, of loads, and of what is led. Infinite where the body force of a manufactured solution
 /// drives. `model`: at the start, settled.
-double explained_speed(const SceneDescription& scene, const Model& model);
+template <int Dim>
+double explained_speed(const SceneDescription& scene, const Model<Dim>& model);
 
 /// Of the fastest point of rigid surfaces in a step, m/s.
-double fastest_wall(const Model& model, const StepInput& step);
+template <int Dim>
+double fastest_wall(const Model<Dim>& model, const StepInput& step);
 
 }  // namespace geocontainer_mpm::scene

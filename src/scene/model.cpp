@@ -28,7 +28,8 @@ private:
 
 }  // namespace
 
-void Model::sort_particles()
+template <int Dim>
+void Model<Dim>::sort_particles()
 {
   if (now_.sorted && now_.travel_since_sort <= 0.9 * fields_.front().grid.dx())
     return;
@@ -43,11 +44,12 @@ void Model::sort_particles()
   now_.travel_since_sort = 0.0;
 }
 
-void Model::open_grids()
+template <int Dim>
+void Model<Dim>::open_grids()
 {
   for (Field& field : fields_) {
-    mpm::Window<2> window;
-    for (int d = 0; d < 2; ++d) {
+    mpm::Window<Dim> window;
+    for (int d = 0; d < Dim; ++d) {
       const auto base = [&](double x) {
         return static_cast<int>(std::floor((x - field.grid.origin()[d]) * field.grid.inverse_dx() - 0.5));
       };
@@ -59,15 +61,17 @@ void Model::open_grids()
   }
 }
 
-Vec2 Model::gravity_at(double time_s) const
+template <int Dim>
+Vec<Dim> Model<Dim>::gravity_at(double time_s) const
 {
   if (gravity_table_.empty())
     return constant_gravity_;
   const auto [y, z] = value_at<2>(gravity_table_, time_s);
-  return { y, z };
+  return in_space<Dim>(Vec2(y, z));
 }
 
-void Model::transfer_to_grid(double time_s)
+template <int Dim>
+void Model<Dim>::transfer_to_grid(double time_s)
 {
   StageClock clock;
   now_.gravity = gravity_at(time_s);
@@ -92,14 +96,16 @@ void Model::transfer_to_grid(double time_s)
   on_grid_ = true;
 }
 
-double Model::stable_dt(double time_s)
+template <int Dim>
+double Model<Dim>::stable_dt(double time_s)
 {
   if (!on_grid_)
     transfer_to_grid(time_s);
   return stable_dt_;
 }
 
-StepStatus Model::step(const StepInput& input)
+template <int Dim>
+StepStatus Model<Dim>::step(const StepInput& input)
 {
   if (!now_.health.ok)
     return now_.health;
@@ -140,18 +146,20 @@ StepStatus Model::step(const StepInput& input)
 
 /// usf and musl strain by what came through the transfer. On linear simplices nodes with next to no mass strain their
 /// element by so much in a step that power times time says nothing about work.
-bool Model::books_transferred_work() const
+template <int Dim>
+bool Model<Dim>::books_transferred_work() const
 {
   return method_.update == UpdateOrder::usl && method_.shape != mpm::Shape::linear_simplex;
 }
 
-void Model::apply_forces(const StepInput& input, double kick)
+template <int Dim>
+void Model<Dim>::apply_forces(const StepInput& input, double kick)
 {
   double before = 0.0, after = 0.0, power_before = 0.0;
-  Vec2 change = Vec2::Zero();
+  Vec<Dim> change = Vec<Dim>::Zero();
   bool away_from_faces = true;
   for (Field& field : fields_) {
-    const mpm::MotionSums<2> sums = field.update.apply_forces(method_, field.grid, kick, input.damping_per_s, *team_);
+    const mpm::MotionSums<Dim> sums = field.update.apply_forces(method_, field.grid, kick, input.damping_per_s, *team_);
     before += sums.kinetic_before;
     after += sums.kinetic_after;
     power_before += sums.power_before;
@@ -171,14 +179,15 @@ void Model::apply_forces(const StepInput& input, double kick)
   now_.kinetic = after;
   now_.kinetic_known = true;
   if (away_from_faces && input.damping_per_s == 0.0) {
-    const Vec2 pull = kick * ((weight_mass_ - held(&LateStart::weight_mass)) * now_.gravity + load_sum_);
+    const Vec<Dim> pull = kick * ((weight_mass_ - held(&LateStart::weight_mass)) * now_.gravity + load_sum_);
     now_.ledger.momentum_error += (change - pull).norm();
     now_.ledger.momentum_exchanged += pull.norm();
   }
 }
 
 /// What may touch in each field: a body in a sheet touches rigid surfaces by its sheet.
-void Model::collect_points()
+template <int Dim>
+void Model<Dim>::collect_points()
 {
   for (Field& field : fields_) {
     field.points.clear();
@@ -199,20 +208,24 @@ void Model::collect_points()
   }
 }
 
-void Model::solve_contact(const StepInput& input, double kick)
+template <int Dim>
+void Model<Dim>::solve_contact(const StepInput& input, double kick)
 {
   for (std::size_t b = 0; b < boundaries_.size(); ++b)
     boundaries_[b].set_motion(input.start[b], input.end[b], input.dt_s);
   collect_points();
 
-  for (FieldPair& pair : pairs_)
-    take(pair.contact.solve({ &fields_[pair.a].grid, &fields_[pair.a].all_points },
-                            { &fields_[pair.b].grid, &fields_[pair.b].all_points }, pair.friction, kick, input.dt_s));
+  if constexpr (Dim == 2)
+    for (FieldPair& pair : pairs_)
+      take(pair.contact.solve({ &fields_[pair.a].grid, &fields_[pair.a].all_points },
+                              { &fields_[pair.b].grid, &fields_[pair.b].all_points }, pair.friction, kick, input.dt_s));
   for (std::size_t f = 0; f < fields_.size(); ++f)
     collect_anchors(input, f);
-  if (!sheet_pairs_.empty()) {
-    solve_sheet_contact(input, kick);
-    return;
+  if constexpr (Dim == 2) {
+    if (!sheet_pairs_.empty()) {
+      solve_sheet_contact(input, kick);
+      return;
+    }
   }
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     Field& field = fields_[f];
@@ -221,7 +234,8 @@ void Model::solve_contact(const StepInput& input, double kick)
   }
 }
 
-void Model::take(const contact::ContactSums& sums)
+template <int Dim>
+void Model<Dim>::take(const contact::ContactSums<Dim>& sums)
 {
   now_.kinetic += sums.kinetic_change;
   now_.ledger.contact += sums.dissipated;
@@ -230,40 +244,43 @@ void Model::take(const contact::ContactSums& sums)
 }
 
 /// What boundaries and anchors did to a field.
-void Model::take_impulses(const Field& field)
+template <int Dim>
+void Model<Dim>::take_impulses(const Field& field)
 {
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
-    const contact::BoundaryImpulse& done = field.impulses.boundary[b];
-    BoundaryTotal& total = now_.boundary_totals[b];
+    const contact::BoundaryImpulse<Dim>& done = field.impulses.boundary[b];
+    BoundaryTotal<Dim>& total = now_.boundary_totals[b];
     total.impulse += done.impulse;
     total.moment += done.moment;
     total.work += done.work;
     now_.ledger.work_in += done.work;
   }
-  for (const contact::AnchorImpulse& anchor : field.impulses.anchor)
+  for (const contact::AnchorImpulse<Dim>& anchor : field.impulses.anchor)
     now_.ledger.work_in += anchor.work;
 }
 
 /// Where held ends of sheets are to be at the end of the step.
-void Model::collect_anchors(const StepInput& input, std::size_t field)
+template <int Dim>
+void Model<Dim>::collect_anchors(const StepInput& input, std::size_t field)
 {
-  std::vector<contact::Anchor>& anchors = fields_[field].anchors;
+  std::vector<contact::Anchor<Dim>>& anchors = fields_[field].anchors;
   anchors.clear();
   for (const HeldEnd& held : held_ends_) {
     const ModelSheet& sheet = now_.sheets[held.sheet];
     if (sheet.field != field)
       continue;
-    Vec2 target = held.place;
+    Vec<Dim> target = held.place;
     if (!held.motion.empty()) {
       const auto [y, z] = value_at<2>(held.motion, input.time_s + input.dt_s);
-      target += Vec2(y, z);
+      target += in_space<Dim>(Vec2(y, z));
     }
-    anchors.push_back({ sheet.sheet.node(held.node), target });
+    anchors.push_back({ sheet.sheet.nodes().position_of(held.node), target });
   }
 }
 
 /// Supports, then the faces of the grid, which have the last word.
-void Model::hold_nodes(const StepInput& input, double kick)
+template <int Dim>
+void Model<Dim>::hold_nodes(const StepInput& input, double kick)
 {
   for (Field& field : fields_) {
     for (const SupportDescription& support : supports_) {
@@ -278,24 +295,27 @@ void Model::hold_nodes(const StepInput& input, double kick)
   }
 }
 
-void Model::restore(const ModelState& state)
+template <int Dim>
+void Model<Dim>::restore(const ModelState& state)
 {
   now_ = state;
   on_grid_ = false;
   survey();  // the fields' extents, from which the grids' windows follow
 }
 
-void Model::hold(bool held)
+template <int Dim>
+void Model<Dim>::hold(bool held)
 {
-  for (contact::ContactSolver& contact : now_.contact)
+  for (contact::ContactSolver<Dim>& contact : now_.contact)
     contact.hold(held);
   for (contact::SheetContact& contact : now_.sheet_contact)
     contact.hold(held);
 }
 
-void Model::stop_motion()
+template <int Dim>
+void Model<Dim>::stop_motion()
 {
-  const auto still = [](mpm::Particles<2>& particles) {
+  const auto still = [](mpm::Particles<Dim>& particles) {
     for (mpm::Column& column : particles.velocity)
       std::fill(column.begin(), column.end(), 0.0);
     for (auto* matrix : { &particles.affine, &particles.gradient })
@@ -312,5 +332,8 @@ void Model::stop_motion()
   now_.fastest = 0.0;
   on_grid_ = false;
 }
+
+template class Model<2>;
+template class Model<3>;
 
 }  // namespace geocontainer_mpm::scene

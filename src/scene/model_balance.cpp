@@ -20,12 +20,26 @@ double column_sum(const mpm::Column& column)
   return sum;
 }
 
+/// Stress times rate of strain, W/m^3.
+template <int Dim>
+double power_per_volume(const mpm::Particles<Dim>& particles, std::size_t p)
+{
+  const auto& s = particles.stress;
+  const auto& l = particles.gradient;
+  if constexpr (Dim == 2)
+    return s[0][p] * l[0][p] + s[1][p] * l[3][p] + s[2][p] * (l[1][p] + l[2][p]);
+  else
+    return s[0][p] * l[0][p] + s[1][p] * l[4][p] + s[2][p] * l[8][p] + s[3][p] * (l[1][p] + l[3][p]) +
+           s[4][p] * (l[2][p] + l[6][p]) + s[5][p] * (l[5][p] + l[7][p]);
+}
+
 }  // namespace
 
-void Model::open_ledger()
+template <int Dim>
+void Model<Dim>::open_ledger()
 {
   now_.ledger = Ledger{};
-  now_.water = WaterState{};
+  now_.water = WaterState<Dim>{};
   now_.ledger.plastic_at_start = plastic_work();
   now_.ledger.rupture_at_start = rupture_energy();
   now_.ledger.elastic_at_start = elastic_energy();
@@ -35,14 +49,16 @@ void Model::open_ledger()
   stages_ = StageTimes{};
 }
 
-double Model::rms_velocity() const
+template <int Dim>
+double Model<Dim>::rms_velocity() const
 {
   return std::sqrt(2.0 * std::max(0.0, now_.kinetic) / (inertia_ - held(&LateStart::inertia)));
 }
 
-Vec2 Model::centroid() const
+template <int Dim>
+Vec<Dim> Model<Dim>::centroid() const
 {
-  Vec2 moment = Vec2::Zero();
+  Vec<Dim> moment = Vec<Dim>::Zero();
   double mass = 0.0;
   for (const Body& body : now_.bodies)
     for (std::size_t p = 0; p < body.particles.size(); ++p)
@@ -50,15 +66,16 @@ Vec2 Model::centroid() const
   mass = soil_mass();
   if (now_.bodies.empty())
     for (const ModelSheet& sheet : now_.sheets) {
-      const mpm::Particles<2>& nodes = sheet.sheet.nodes();
+      const mpm::Particles<Dim>& nodes = sheet.sheet.nodes();
       for (std::size_t p = 0; p < nodes.size(); ++p)
-        moment += nodes.mass[p] * Vec2(nodes.position[0][p], nodes.position[1][p]);
+        moment += nodes.mass[p] * nodes.position_of(p);
       mass += column_sum(nodes.mass);
     }
   return moment / mass;
 }
 
-double Model::soil_mass() const
+template <int Dim>
+double Model<Dim>::soil_mass() const
 {
   double mass = 0.0;
   for (const Body& body : now_.bodies) {
@@ -70,24 +87,27 @@ double Model::soil_mass() const
   return mass;
 }
 
-double Model::fundamental_frequency()
+template <int Dim>
+double Model<Dim>::fundamental_frequency()
 {
   // A quarter wave over the height of all that is there, at the slowest body's wave speed.
   double speed = std::numeric_limits<double>::infinity(), low = speed, high = -speed;
   for (Body& body : now_.bodies) {
     if (body.held)
       continue;
-    mpm::Particles<2>& particles = body.particles;
+    mpm::Particles<Dim>& particles = body.particles;
     const double modulus = body.law->stiffness(particles.batch(), 0, particles.size()).constrained_modulus;
     speed = std::min(speed, std::sqrt(modulus * particles.volume[0] / particles.mass[0]));
-    const auto [lowest, highest] = std::minmax_element(particles.position[1].begin(), particles.position[1].end());
+    const mpm::Column& height = particles.position[z_axis<Dim>];
+    const auto [lowest, highest] = std::minmax_element(height.begin(), height.end());
     low = std::min(low, *lowest);
     high = std::max(high, *highest);
   }
   return 0.5 * pi * speed / std::max(fields_.front().grid.dx(), high - low);
 }
 
-double Model::elastic_energy() const
+template <int Dim>
+double Model<Dim>::elastic_energy() const
 {
   double energy = 0.0;
   for (const Body& body : now_.bodies)
@@ -97,32 +117,33 @@ double Model::elastic_energy() const
   return energy;
 }
 
-double Model::potential_energy() const
+template <int Dim>
+double Model<Dim>::potential_energy() const
 {
   double energy = 0.0;
   for (const Body& body : now_.bodies) {
     for (std::size_t p = 0; p < body.particles.size(); ++p)
       energy -= body.own_mass(p) * constant_gravity_.dot(body.position(p));
-    if (water_)
-      energy += water_->potential(body.particles, body.particle_height);
+    if constexpr (Dim == 2)
+      if (water_)
+        energy += water_->potential(body.particles, body.particle_height);
   }
   for (const ModelSheet& sheet : now_.sheets) {
-    const mpm::Particles<2>& nodes = sheet.sheet.nodes();
+    const mpm::Particles<Dim>& nodes = sheet.sheet.nodes();
     for (std::size_t p = 0; p < nodes.size(); ++p)
-      energy -= nodes.weight_mass[p] *
-                (constant_gravity_[0] * nodes.position[0][p] + constant_gravity_[1] * nodes.position[1][p]);
+      energy -= nodes.weight_mass[p] * constant_gravity_.dot(nodes.position_of(p));
   }
   return energy;
 }
 
 /// Work of gravity per time at the velocities of the last step, J/(m s).
-double Model::gravity_power(const Vec2& gravity) const
+template <int Dim>
+double Model<Dim>::gravity_power(const Vec<Dim>& gravity) const
 {
   double power = 0.0;
-  const auto add = [&](const mpm::Particles<2>& particles) {
+  const auto add = [&](const mpm::Particles<Dim>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p)
-      power +=
-          particles.weight_mass[p] * (gravity[0] * particles.velocity[0][p] + gravity[1] * particles.velocity[1][p]);
+      power += particles.weight_mass[p] * gravity.dot(particles.velocity_of(p));
   };
   for (const Body& body : now_.bodies)
     add(body.particles);
@@ -132,23 +153,25 @@ double Model::gravity_power(const Vec2& gravity) const
 }
 
 /// What stiffness-proportional damping takes at the velocity gradients of the last step, W/m.
-double Model::damping_power() const
+template <int Dim>
+double Model<Dim>::damping_power() const
 {
   double power = 0.0;
   for (const Body& body : now_.bodies) {
     if (body.damping.lambda == 0.0 && body.damping.shear == 0.0)
       continue;
-    const auto& l = body.particles.gradient;
     for (std::size_t p = 0; p < body.particles.size(); ++p) {
-      const double yy = l[0][p], zz = l[3][p], yz = 0.5 * (l[1][p] + l[2][p]);
-      power += body.particles.volume[p] * (body.damping.lambda * (yy + zz) * (yy + zz) +
-                                           2.0 * body.damping.shear * (yy * yy + zz * zz + 2.0 * yz * yz));
+      const Mat<Dim> gradient = body.gradient(p), rate = 0.5 * (gradient + gradient.transpose());
+      const double trace = rate.trace();
+      power += body.particles.volume[p] *
+               (body.damping.lambda * trace * trace + 2.0 * body.damping.shear * rate.squaredNorm());
     }
   }
   return power;
 }
 
-double Model::plastic_work() const
+template <int Dim>
+double Model<Dim>::plastic_work() const
 {
   double work = 0.0;
   for (const Body& body : now_.bodies)
@@ -157,21 +180,21 @@ double Model::plastic_work() const
 }
 
 /// What stresses store and dissipate at the velocity gradients of the last step, W/m.
-double Model::stress_power() const
+template <int Dim>
+double Model<Dim>::stress_power() const
 {
   double power = 0.0;
   for (const Body& body : now_.bodies) {
-    const auto& l = body.particles.gradient;
-    const auto& s = body.particles.stress;
     for (std::size_t p = 0; p < body.particles.size(); ++p)
-      power += body.particles.volume[p] * (s[0][p] * l[0][p] + s[1][p] * l[3][p] + s[2][p] * (l[1][p] + l[2][p]));
+      power += body.particles.volume[p] * power_per_volume(body.particles, p);
   }
   for (const ModelSheet& sheet : now_.sheets)
     power += sheet.sheet.stress_power();
   return power;
 }
 
-double Model::rupture_energy() const
+template <int Dim>
+double Model<Dim>::rupture_energy() const
 {
   double energy = 0.0;
   for (const ModelSheet& sheet : now_.sheets)
@@ -180,7 +203,8 @@ double Model::rupture_energy() const
 }
 
 /// What tensions that follow from positions store, W/m. Membrane points are in stress_power().
-double Model::tension_power() const
+template <int Dim>
+double Model<Dim>::tension_power() const
 {
   double power = 0.0;
   for (const ModelSheet& sheet : now_.sheets)
@@ -192,7 +216,8 @@ double Model::tension_power() const
 /// new positions, half a step earlier: what stresses store and dissipate and gravity gives within that half step, J/m.
 /// With it the sum of energies is what leapfrog keeps, K + k u_n u_(n+1) / 2 for a spring, and not K + k u_(n+1)^2 / 2,
 /// which swings by omega dt of it.
-double Model::half_step_work() const
+template <int Dim>
+double Model<Dim>::half_step_work() const
 {
   const double later = -1.0, earlier = 1.0;
   return 0.5 * now_.last_dt *
@@ -201,7 +226,8 @@ double Model::half_step_work() const
           (on_grid_ ? later : earlier) * tension_power());
 }
 
-EnergyFrame Model::energy() const
+template <int Dim>
+EnergyFrame Model<Dim>::energy() const
 {
   EnergyFrame e;
   e.kinetic = now_.kinetic_known ? now_.kinetic : now_.ledger.kinetic_at_start;
@@ -226,12 +252,14 @@ EnergyFrame Model::energy() const
   return e;
 }
 
-double Model::momentum_error() const
+template <int Dim>
+double Model<Dim>::momentum_error() const
 {
   return now_.ledger.momentum_exchanged > 0.0 ? now_.ledger.momentum_error / now_.ledger.momentum_exchanged : 0.0;
 }
 
-std::uint64_t Model::digest() const
+template <int Dim>
+std::uint64_t Model<Dim>::digest() const
 {
   // FNV-1a over the bits of everything that the next step depends on; time itself is left out, so that a model at rest
   // has one digest however long it has rested.
@@ -247,7 +275,7 @@ std::uint64_t Model::digest() const
     for (const mpm::Column& column : columns)
       add(column);
   };
-  const auto add_particles = [&](const mpm::Particles<2>& particles) {
+  const auto add_particles = [&](const mpm::Particles<Dim>& particles) {
     add_all(particles.position);
     add_all(particles.velocity);
     add_all(particles.affine);
@@ -267,5 +295,8 @@ std::uint64_t Model::digest() const
   }
   return hash;
 }
+
+template class Model<2>;
+template class Model<3>;
 
 }  // namespace geocontainer_mpm::scene

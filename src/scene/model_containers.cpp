@@ -13,7 +13,7 @@ namespace {
 /// Instants closer than this are one, s.
 constexpr double same_instant_s = 1e-9;
 
-contact::ClosedSheet closed_sheet(const ModelSheet& sheet)
+contact::ClosedSheet closed_sheet(const ModelSheet<2>& sheet)
 {
   return { &sheet.sheet.nodes(), sheet.sheet.outwards() };
 }
@@ -21,7 +21,8 @@ contact::ClosedSheet closed_sheet(const ModelSheet& sheet)
 }  // namespace
 
 /// The sheet of a velocity field that is one container's; none for any other field.
-std::optional<std::size_t> Model::sheet_of_container(const SceneDescription& scene, const std::string& field) const
+template <int Dim>
+std::optional<std::size_t> Model<Dim>::sheet_of_container(const SceneDescription& scene, const std::string& field) const
 {
   const std::size_t index = field_index(field);
   if (scene.is_container(fields_[index].name))
@@ -31,7 +32,8 @@ std::optional<std::size_t> Model::sheet_of_container(const SceneDescription& sce
   return std::nullopt;
 }
 
-void Model::add_sheet_pair(const SheetPair& pair, contact::SheetSide side, double friction)
+template <int Dim>
+void Model<Dim>::add_sheet_pair(const SheetPair& pair, contact::SheetSide side, double friction)
 {
   sheet_pairs_.push_back(pair);
   now_.sheet_contact.emplace_back(method_.shape, side, friction);
@@ -39,7 +41,8 @@ void Model::add_sheet_pair(const SheetPair& pair, contact::SheetSide side, doubl
 
 /// Containers touch by their sheets: the nodes of each on the outside of the other's segments. Whatever else has a
 /// field of its own touches by the nodes of the grid.
-void Model::build_contacts(const SceneDescription& scene)
+template <int Dim>
+void Model<Dim>::build_contacts(const SceneDescription& scene)
 {
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
     const GeotextileDescription& description = sheet_descriptions_[s];
@@ -66,14 +69,16 @@ void Model::build_contacts(const SceneDescription& scene)
   }
 }
 
-contact::ContactPoints Model::points_of(const SheetPair& pair) const
+template <int Dim>
+contact::ContactPoints<Dim> Model<Dim>::points_of(const SheetPair& pair) const
 {
-  return pair.body ? contact::ContactPoints{ &now_.bodies[*pair.body].particles, true }
-                   : contact::ContactPoints{ &now_.sheets[pair.other_sheet].sheet.nodes(), false };
+  return pair.body ? contact::ContactPoints<Dim>{ &now_.bodies[*pair.body].particles, true }
+                   : contact::ContactPoints<Dim>{ &now_.sheets[pair.other_sheet].sheet.nodes(), false };
 }
 
 /// Nothing touches what has not started, and sheets whose boxes are apart.
-bool Model::takes_part(const SheetPair& pair) const
+template <int Dim>
+bool Model<Dim>::takes_part(const SheetPair& pair) const
 {
   if (now_.sheets[pair.sheet].held || (!pair.body && now_.sheets[pair.other_sheet].held))
     return false;
@@ -85,9 +90,10 @@ bool Model::takes_part(const SheetPair& pair) const
 
 /// What touches sheets from either side, and what hull, surfaces and anchors do, in one solution: a sheet between its
 /// fill and the hull must satisfy both.
-void Model::solve_sheet_contact(const StepInput& input, double kick)
+template <int Dim>
+void Model<Dim>::solve_sheet_contact(const StepInput& input, double kick)
 {
-  std::vector<contact::ContactSums> sums(fields_.size());
+  std::vector<contact::ContactSums<Dim>> sums(fields_.size());
   for (std::size_t f = 0; f < fields_.size(); ++f)
     now_.contact[f].begin(boundaries_, fields_[f].points, fields_[f].anchors, input.dt_s, fields_[f].grid, sums[f]);
   std::vector<std::size_t> active;
@@ -133,9 +139,10 @@ void Model::solve_sheet_contact(const StepInput& input, double kick)
 }
 
 /// Bodies that are held at first: what they start with is put aside, and they stand still.
-void Model::build_late_starts(const SceneDescription& scene)
+template <int Dim>
+void Model<Dim>::build_late_starts(const SceneDescription& scene)
 {
-  const auto stand = [](mpm::Particles<2>& particles) {
+  const auto stand = [](mpm::Particles<Dim>& particles) {
     for (mpm::Column& column : particles.velocity)
       std::fill(column.begin(), column.end(), 0.0);
     for (mpm::Column& column : particles.affine)
@@ -147,7 +154,7 @@ void Model::build_late_starts(const SceneDescription& scene)
     if (!(at_s > 0.0))
       continue;
     LateStart start{ at_s, b, std::nullopt, body.particles, {}, 0.0, 0.0 };
-    const auto weigh = [&start](const mpm::Particles<2>& particles) {
+    const auto weigh = [&start](const mpm::Particles<Dim>& particles) {
       for (std::size_t p = 0; p < particles.size(); ++p) {
         start.weight_mass += particles.weight_mass[p];
         start.inertia += particles.mass[p];
@@ -170,7 +177,8 @@ void Model::build_late_starts(const SceneDescription& scene)
   }
 }
 
-double Model::next_start_s() const
+template <int Dim>
+double Model<Dim>::next_start_s() const
 {
   double next = std::numeric_limits<double>::infinity();
   for (const LateStart& start : late_starts_)
@@ -180,7 +188,8 @@ double Model::next_start_s() const
 }
 
 /// Sum over bodies that are held.
-double Model::held(double LateStart::*what) const
+template <int Dim>
+double Model<Dim>::held(double LateStart::*what) const
 {
   double sum = 0.0;
   for (const LateStart& start : late_starts_)
@@ -189,20 +198,21 @@ double Model::held(double LateStart::*what) const
 }
 
 /// Lets go of bodies whose time has come. Their kinetic energy counts as work done from outside.
-void Model::start_bodies(double time_s)
+template <int Dim>
+void Model<Dim>::start_bodies(double time_s)
 {
-  const auto let_go = [this](const mpm::Particles<2>& start, mpm::Particles<2>& particles) {
+  const auto let_go = [this](const mpm::Particles<Dim>& start, mpm::Particles<Dim>& particles) {
     // Velocities live at mid-steps: the first kick is half of the last step too long.
-    const Vec2 early = 0.5 * now_.last_dt * now_.gravity;
+    const Vec<Dim> early = 0.5 * now_.last_dt * now_.gravity;
     double kinetic = 0.0;
     particles.affine = start.affine;
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      Vec2 v(start.velocity[0][p], start.velocity[1][p]);
+      Vec<Dim> v = start.velocity_of(p);
       now_.ledger.work_in += 0.5 * particles.mass[p] * v.squaredNorm();
       v -= particles.weight_mass[p] / particles.mass[p] * early;
       kinetic += 0.5 * particles.mass[p] * v.squaredNorm();
-      particles.velocity[0][p] = v[0];
-      particles.velocity[1][p] = v[1];
+      for (std::size_t d = 0; d < Dim; ++d)
+        particles.velocity[d][p] = v[static_cast<Eigen::Index>(d)];
     }
     now_.kinetic += kinetic;
   };
@@ -225,5 +235,8 @@ void Model::start_bodies(double time_s)
   now_.bound_known = false;
   survey();
 }
+
+template class Model<2>;
+template class Model<3>;
 
 }  // namespace geocontainer_mpm::scene

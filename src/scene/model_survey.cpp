@@ -18,9 +18,10 @@ constexpr int bound_valid_steps = 50;
 
 /// By how much a consistent mass matrix raises the largest squared frequency and damping rate: its smallest eigenvalue
 /// relative to the lumped one is at worst the lumped part of it.
+template <int Dim>
 double stiffening(const mpm::Discretisation& method)
 {
-  return method.mass == mpm::MassMatrix::consistent ? 1.0 / mpm::ConsistentMass<2>::lumped_part : 1.0;
+  return method.mass == mpm::MassMatrix::consistent ? 1.0 / mpm::ConsistentMass<Dim>::lumped_part : 1.0;
 }
 
 /// A particle with less of its volume at the start than this is no soil and no slurry any more.
@@ -29,29 +30,31 @@ constexpr double least_volume = 0.05;
 /// The same of a body as a whole, and the other way: sand that flies apart takes up more.
 constexpr double least_body_volume = 0.35, most_body_volume = 15.0;
 
-bool squeezed(const mpm::Particles<2>& particles, std::size_t p)
+template <int Dim>
+bool squeezed(const mpm::Particles<Dim>& particles, std::size_t p)
 {
   return !(particles.volume[p] > least_volume * particles.initial_volume[p]);
 }
 
+template <int Dim>
 struct Look {
-  Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  Vec<Dim> lower = Vec<Dim>::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   double fastest_square = 0.0;
   bool sound = true;  ///< all finite, with volume, inside the grid
 };
 
-Look look_at(const mpm::Particles<2>& particles, bool has_volume, const Vec2& grid_lower, const Vec2& grid_upper)
+template <int Dim>
+Look<Dim> look_at(const mpm::Particles<Dim>& particles, bool has_volume, const Vec<Dim>& grid_lower, const Vec<Dim>& grid_upper)
 {
-  Look look;
+  Look<Dim> look;
   double doubt = 0.0;  // stays zero, unless something is not finite: then NaN
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double y = particles.position[0][p], z = particles.position[1][p];
-    const double vy = particles.velocity[0][p], vz = particles.velocity[1][p];
-    look.lower = look.lower.cwiseMin(Vec2(y, z));
-    look.upper = look.upper.cwiseMax(Vec2(y, z));
-    const double square = vy * vy + vz * vz;
+    const Vec<Dim> x = particles.position_of(p);
+    look.lower = look.lower.cwiseMin(x);
+    look.upper = look.upper.cwiseMax(x);
+    const double square = particles.velocity_of(p).squaredNorm();
     look.fastest_square = std::max(look.fastest_square, square);
-    doubt += 0.0 * (y + z + square);
+    doubt += 0.0 * (x.sum() + square);
   }
   if (has_volume)
     for (std::size_t p = 0; p < particles.size(); ++p)
@@ -63,12 +66,12 @@ Look look_at(const mpm::Particles<2>& particles, bool has_volume, const Vec2& gr
 }
 
 /// The first particle that is not well.
-Failure find_culprit(const std::string& name, const mpm::Particles<2>& particles, bool has_volume,
-                     const Vec2& grid_lower, const Vec2& grid_upper)
+template <int Dim>
+Failure find_culprit(const std::string& name, const mpm::Particles<Dim>& particles, bool has_volume,
+                     const Vec<Dim>& grid_lower, const Vec<Dim>& grid_upper)
 {
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x(particles.position[0][p], particles.position[1][p]);
-    const Vec2 v(particles.velocity[0][p], particles.velocity[1][p]);
+    const Vec<Dim> x = particles.position_of(p), v = particles.velocity_of(p);
     const char* cause = !x.allFinite() || !v.allFinite()       ? "is not finite any more"
                         : has_volume && squeezed(particles, p) ? "has lost its volume"
                         : (x.array() < grid_lower.array()).any() || (x.array() > grid_upper.array()).any()
@@ -76,22 +79,23 @@ Failure find_culprit(const std::string& name, const mpm::Particles<2>& particles
                             : nullptr;
     if (cause)
       return { fmt::format("particle {} of {} {}", particles.id[p], name, cause),
-               x.allFinite() ? x : Vec2(Vec2::Zero()), 0.0 };
+               x.allFinite() ? in_space<3>(x) : Vec3(Vec3::Zero()), 0.0 };
   }
   return {};
 }
 
 }  // namespace
 
-void Model::survey()
+template <int Dim>
+void Model<Dim>::survey()
 {
   double fastest_square = 0.0;
   for (Field& field : fields_) {
-    field.extent_lower = Vec2::Constant(std::numeric_limits<double>::infinity());
+    field.extent_lower = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
     field.extent_upper = -field.extent_lower;
   }
-  const auto take = [&](const std::string& name, std::size_t f, const mpm::Particles<2>& particles, bool has_volume) {
-    const Look look = look_at(particles, has_volume, lower_, upper_);
+  const auto take = [&](const std::string& name, std::size_t f, const mpm::Particles<Dim>& particles, bool has_volume) {
+    const Look<Dim> look = look_at<Dim>(particles, has_volume, lower_, upper_);
     fields_[f].extent_lower = fields_[f].extent_lower.cwiseMin(look.lower);
     fields_[f].extent_upper = fields_[f].extent_upper.cwiseMax(look.upper);
     fastest_square = std::max(fastest_square, look.fastest_square);
@@ -110,7 +114,8 @@ void Model::survey()
 
 /// Nothing has moved far or tightened since the bound was assembled. With linear shapes the mass of a node can all but
 /// vanish within a step, and the frequencies there grow with it.
-bool Model::bound_holds() const
+template <int Dim>
+bool Model<Dim>::bound_holds() const
 {
   const bool lasts = method_.shape != mpm::Shape::linear_simplex || mpm::feels_what_particles_hold(method_);
   return lasts && now_.bound_known && now_.steps_since_bound < bound_valid_steps &&
@@ -118,7 +123,8 @@ bool Model::bound_holds() const
          active_segments() <= now_.bound_active_segments;
 }
 
-std::size_t Model::active_segments() const
+template <int Dim>
+std::size_t Model<Dim>::active_segments() const
 {
   std::size_t active = 0;
   for (const ModelSheet& sheet : now_.sheets)
@@ -127,7 +133,8 @@ std::size_t Model::active_segments() const
 }
 
 /// The largest frequency and damping rate that the state of one field allows.
-void Model::assemble_bound(std::size_t f)
+template <int Dim>
+void Model<Dim>::assemble_bound(std::size_t f)
 {
   Field& field = fields_[f];
   field.bound.begin(field.grid, method_);
@@ -142,7 +149,7 @@ void Model::assemble_bound(std::size_t f)
                          { viscous * body.viscous.lame, viscous * body.viscous.shear });
   }
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
-    const geotextile::Sheet& sheet = now_.sheets[s].sheet;
+    const SheetOf<Dim>& sheet = now_.sheets[s].sheet;
     if (now_.sheets[s].field != f || now_.sheets[s].held)
       continue;
     field.bound.add_mass(sheet.nodes());
@@ -151,14 +158,15 @@ void Model::assemble_bound(std::size_t f)
 }
 
 /// How long the next step may be: what the scheme can bear, and no particle further than is allowed.
-void Model::bound_time_step()
+template <int Dim>
+void Model<Dim>::bound_time_step()
 {
   if (!bound_holds()) {
     now_.bound_dt = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       assemble_bound(f);
-      const mpm::FrequencyBound<2>::Result bound = fields_[f].bound.bound();
-      const double stiffer = stiffening(method_);
+      const typename mpm::FrequencyBound<Dim>::Result bound = fields_[f].bound.bound();
+      const double stiffer = stiffening<Dim>(method_);
       now_.bound_dt = std::min(
           now_.bound_dt, mpm::stable_step(stiffer * bound.frequency_square, stiffer * bound.damping_rate, method_));
     }
@@ -172,17 +180,18 @@ void Model::bound_time_step()
     stable_dt_ = std::min(stable_dt_, max_travel_ / now_.fastest);
 }
 
-Failure Model::fastest(bool sheets_too) const
+template <int Dim>
+Failure Model<Dim>::fastest(bool sheets_too) const
 {
   Failure failure;
   double fastest = -1.0;
-  const auto look = [&](const std::string& name, const mpm::Particles<2>& particles) {
+  const auto look = [&](const std::string& name, const mpm::Particles<Dim>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double speed = std::hypot(particles.velocity[0][p], particles.velocity[1][p]);
+      const double speed = particles.velocity_of(p).norm();
       if (!(speed > fastest))
         continue;
       fastest = speed;
-      failure.position_m = { particles.position[0][p], particles.position[1][p] };
+      failure.position_m = in_space<3>(particles.position_of(p));
       failure.reason = fmt::format("particle {} of {} is fastest, at {:.3g} m/s", particles.id[p], name, speed);
     }
   };
@@ -195,7 +204,8 @@ Failure Model::fastest(bool sheets_too) const
 }
 
 /// What has lost its shape so far that its law and its loads mean nothing any more.
-Failure Model::distortion() const
+template <int Dim>
+Failure Model<Dim>::distortion() const
 {
   for (const Body& body : now_.bodies) {
     double volume = 0.0, start = 0.0;
@@ -209,18 +219,21 @@ Failure Model::distortion() const
     if (volume < least_body_volume * start)
       return { fmt::format("{} is squeezed to {:.2g} of its volume: it is too soft for what is on it", body.name,
                            volume / start),
-               body.position(worst), 0.0 };
+               in_space<3>(body.position(worst)), 0.0 };
     if (volume > most_body_volume * start)
       return { fmt::format("{} has swollen to {:.3g} times its volume", body.name, volume / start),
-               body.position(worst), 0.0 };
+               in_space<3>(body.position(worst)), 0.0 };
   }
   for (std::size_t t = 0; t < now_.tractions.size(); ++t)
     if (const std::optional<std::uint32_t> owner = now_.tractions[t].torn()) {
       const Body& body = now_.bodies[traction_body_[t]];
       return { fmt::format("the boundary of {} is torn at particle {}, and a traction with it", body.name, *owner),
-               body.position(body.row[*owner]), 0.0 };
+               in_space<3>(body.position(body.row[*owner])), 0.0 };
     }
   return {};
 }
+
+template class Model<2>;
+template class Model<3>;
 
 }  // namespace geocontainer_mpm::scene

@@ -18,9 +18,11 @@ Vec2 force_at(const SheetEnd& end, double time_s)
                                  : Vec2(value_at<1>(end.force_table, time_s)[0] * end.force_n_per_m);
 }
 
-geotextile::SheetLoad load_at(const GeotextileDescription& sheet, double time_s)
+/// What acts on a sheet.
+template <int Dim>
+auto load_at(const GeotextileDescription& sheet, double time_s)
 {
-  geotextile::SheetLoad load;
+  std::conditional_t<Dim == 2, geotextile::SheetLoad, geotextile::MembraneLoad> load;
   if (sheet.inside_pressure) {
     const InsidePressure& inside = *sheet.inside_pressure;
     const double factor = inside.table.empty() ? 1.0 : value_at<1>(inside.table, time_s)[0];
@@ -28,43 +30,48 @@ geotextile::SheetLoad load_at(const GeotextileDescription& sheet, double time_s)
     load.gradient = factor * inside.gradient_pa_per_m;
     load.level = inside.level_m;
   }
-  load.start_force = force_at(sheet.start, time_s);
-  load.end_force = force_at(sheet.end, time_s);
+  if constexpr (Dim == 2) {
+    load.start_force = force_at(sheet.start, time_s);
+    load.end_force = force_at(sheet.end, time_s);
+  }
   return load;
 }
 
 }  // namespace
 
 /// Body forces of manufactured solutions, water, and loads of sheets, as forces of their particles.
-void Model::load_particles(double time_s)
+template <int Dim>
+void Model<Dim>::load_particles(double time_s)
 {
-  load_sum_ = Vec2::Zero();
+  load_sum_ = Vec<Dim>::Zero();
   for (Body& body : now_.bodies) {
     if (!body.manufactured || body.held)
       continue;
-    for (std::size_t p = 0; p < body.particles.size(); ++p) {
-      const Vec2 force =
-          body.particles.mass[p] * body.manufactured->body_force((*body.start)[body.particles.id[p]], time_s);
-      body.particles.force[0][p] = force[0];
-      body.particles.force[1][p] = force[1];
-      load_sum_ += force;
-    }
+    if constexpr (Dim == 2)
+      for (std::size_t p = 0; p < body.particles.size(); ++p) {
+        const Vec2 force =
+            body.particles.mass[p] * body.manufactured->body_force((*body.start)[body.particles.id[p]], time_s);
+        body.particles.force[0][p] = force[0];
+        body.particles.force[1][p] = force[1];
+        load_sum_ += force;
+      }
   }
   bool taut = false;
   for (std::size_t s = 0; s < now_.sheets.size(); ++s) {
-    geotextile::Sheet& sheet = now_.sheets[s].sheet;
-    if (now_.sheets[s].held || !sheet.update_forces(load_at(sheet_descriptions_[s], time_s)))
+    SheetOf<Dim>& sheet = now_.sheets[s].sheet;
+    if (now_.sheets[s].held || !sheet.update_forces(load_at<Dim>(sheet_descriptions_[s], time_s)))
       continue;
     taut = true;
     for (std::size_t i = 0; i < sheet.nodes().size(); ++i)  // tensions cancel
-      load_sum_ += Vec2(sheet.nodes().force[0][i], sheet.nodes().force[1][i]);
+      load_sum_ += sheet.nodes().force_of(i);
   }
   now_.skipped.membrane_passes += taut ? 0 : 1;
   load_water();
 }
 
 /// All particles' share of the grids.
-void Model::scatter(Part part)
+template <int Dim>
+void Model<Dim>::scatter(Part part)
 {
   for (const Body& body : now_.bodies)
     if (!body.held)
@@ -77,24 +84,27 @@ void Model::scatter(Part part)
                          sheet.sheet.strains_with_grid());
 }
 
-void Model::add_tractions(double time_s)
+template <int Dim>
+void Model<Dim>::add_tractions(double time_s)
 {
-  for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
-    const Body& body = now_.bodies[traction_body_[t]];
-    if (body.held)
-      continue;
-    load_sum_ += now_.tractions[t].add_to(fields_[body.field].grid, method_.shape, body.particles, body.row, time_s);
-  }
+  if constexpr (Dim == 2)
+    for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
+      const Body& body = now_.bodies[traction_body_[t]];
+      if (body.held)
+        continue;
+      load_sum_ += now_.tractions[t].add_to(fields_[body.field].grid, method_.shape, body.particles, body.row, time_s);
+    }
 }
 
 /// The consistent mass matrices, from the particles' places at the start of the step.
-void Model::assemble_mass()
+template <int Dim>
+void Model<Dim>::assemble_mass()
 {
   if (method_.mass != mpm::MassMatrix::consistent)
     return;
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     Field& field = fields_[f];
-    mpm::ConsistentMass<2>& mass = field.update.mass();
+    mpm::ConsistentMass<Dim>& mass = field.update.mass();
     mass.open(method_.shape, field.grid);
     for (const Body& body : now_.bodies)
       if (body.field == f && !body.held)
@@ -106,14 +116,14 @@ void Model::assemble_mass()
 }
 
 /// Power of all loads but constant gravity on the particles' present velocities, W/m.
-double Model::load_power(double time_s) const
+template <int Dim>
+double Model<Dim>::load_power(double time_s) const
 {
   double power = 0.0;
   for (const Body& body : now_.bodies)
     if (body.manufactured)
       for (std::size_t p = 0; p < body.particles.size(); ++p)
-        power += body.particles.force[0][p] * body.particles.velocity[0][p] +
-                 body.particles.force[1][p] * body.particles.velocity[1][p];
+        power += body.particles.force_of(p).dot(body.velocity(p));
   for (const Traction& traction : now_.tractions)
     power += traction.power(time_s);
   for (const ModelSheet& sheet : now_.sheets)
@@ -124,7 +134,8 @@ double Model::load_power(double time_s) const
 }
 
 /// Stress before the forces (USF): from the velocities that came from the particles.
-void Model::stress_first(double dt)
+template <int Dim>
+void Model<Dim>::stress_first(double dt)
 {
   for (Field& field : fields_)
     field.update.velocities(method_, field.grid, *team_);
@@ -138,7 +149,8 @@ void Model::stress_first(double dt)
 }
 
 /// Velocities and positions, and the velocity gradients that the stress update wants.
-void Model::move_particles(const StepInput& input)
+template <int Dim>
+void Model<Dim>::move_particles(const StepInput& input)
 {
   const double dt = input.dt_s;
   if (method_.update == UpdateOrder::usl && !mpm::smooths_gradients(method_)) {
@@ -164,14 +176,16 @@ void Model::move_particles(const StepInput& input)
   for (Body& body : now_.bodies)
     body.particles.stretch_boxes(dt);
   move_tracers(dt);
-  for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
-    const Body& body = now_.bodies[traction_body_[t]];
-    now_.tractions[t].move(body.particles, body.row, dt);
-  }
+  if constexpr (Dim == 2)
+    for (std::size_t t = 0; t < now_.tractions.size(); ++t) {
+      const Body& body = now_.bodies[traction_body_[t]];
+      now_.tractions[t].move(body.particles, body.row, dt);
+    }
 }
 
 /// The grid's velocities anew from the moved particles' (MUSL), under the same conditions of faces and supports.
-void Model::map_back(const StepInput& input)
+template <int Dim>
+void Model<Dim>::map_back(const StepInput& input)
 {
   for (Field& field : fields_) {
     field.grid.keep_velocities(*team_);
@@ -185,14 +199,16 @@ void Model::map_back(const StepInput& input)
   }
 }
 
-void Model::smooth_gradients()
+template <int Dim>
+void Model<Dim>::smooth_gradients()
 {
   for (Body& body : now_.bodies)
     if (!body.held)
       mpm::smooth_gradients(method_, body.strips, body.particles, fields_[body.field].grid, *team_);
 }
 
-void Model::gather_bodies(Gather what, double dt)
+template <int Dim>
+void Model<Dim>::gather_bodies(Gather what, double dt)
 {
   for (Body& body : now_.bodies)
     for_chunks(body.held ? 0 : body.particles.size(), *team_, [&](std::size_t first, std::size_t last) {
@@ -200,7 +216,8 @@ void Model::gather_bodies(Gather what, double dt)
     });
 }
 
-void Model::gather_sheets(Gather what, double dt)
+template <int Dim>
+void Model<Dim>::gather_sheets(Gather what, double dt)
 {
   for (ModelSheet& sheet : now_.sheets) {
     const bool strains = sheet.sheet.strains_with_grid();  // gradients are for who strains by them
@@ -212,22 +229,24 @@ void Model::gather_sheets(Gather what, double dt)
   }
 }
 
-void Model::move_tracers(double dt)
+template <int Dim>
+void Model<Dim>::move_tracers(double dt)
 {
   for (Tracer& tracer : now_.tracers) {
     const Body& body = now_.bodies[tracer.body];
     const std::size_t p = body.row[tracer.owner];
     tracer.offset += dt * (body.gradient(p) * tracer.offset);
-    const Vec2 moved = body.position(p) + tracer.offset;
+    const Vec<Dim> moved = body.position(p) + tracer.offset;
     tracer.velocity = (moved - tracer.position) / dt;
     tracer.position = moved;
   }
 }
 
-void Model::update_stress(double dt)
+template <int Dim>
+void Model<Dim>::update_stress(double dt)
 {
   for (Body& body : now_.bodies) {
-    const material::Batch<2> batch = body.particles.batch();
+    const material::Batch<Dim> batch = body.particles.batch();
     for_chunks(body.held ? 0 : body.particles.size(), *team_,
                [&](std::size_t first, std::size_t last) { body.law->update(batch, dt, first, last); });
   }
@@ -235,5 +254,8 @@ void Model::update_stress(double dt)
     if (!sheet.held)
       sheet.sheet.update_stress(dt);
 }
+
+template class Model<2>;
+template class Model<3>;
 
 }  // namespace geocontainer_mpm::scene

@@ -7,10 +7,11 @@
 namespace geocontainer_mpm::scene {
 
 /// Weight and inertia in all.
-void Model::weigh()
+template <int Dim>
+void Model<Dim>::weigh()
 {
   inertia_ = weight_mass_ = 0.0;
-  const auto add = [this](const mpm::Particles<2>& particles) {
+  const auto add = [this](const mpm::Particles<Dim>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
       inertia_ += particles.mass[p];
       weight_mass_ += particles.weight_mass[p];
@@ -23,41 +24,45 @@ void Model::weigh()
 }
 
 /// Weight, inertia and drag of every body where it is now. After the sheets' own forces.
-void Model::load_water()
+template <int Dim>
+void Model<Dim>::load_water()
 {
-  if (!water_)
-    return;
-  now_.water.drag = Vec2::Zero();
-  slowed_power_ = 0.0;
-  for (std::size_t b = 0; b < now_.bodies.size(); ++b) {
-    Body& body = now_.bodies[b];
-    const Water::Uptake uptake = water_->immerse(body.density, body.particle_height, body.particles);
-    now_.ledger.water += uptake.left_behind;
-    now_.kinetic -= uptake.left_behind;
-    slowed_power_ += now_.gravity.dot(uptake.slowed);
-    const std::size_t sheet = sheet_around(b);
-    Water::Drag drag;
-    if (sheet < now_.sheets.size()) {
-      mpm::Particles<2>& nodes = now_.sheets[sheet].sheet.nodes();
-      drag = water_->resist(nodes, 0.0, body.particle_height, body.particles);
-      now_.water.on_sheets.resize(now_.sheets.size());
-      water_->press(drag, nodes, now_.water.on_sheets[sheet]);
-      for (std::size_t d = 0; d < 2; ++d)
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-          nodes.force[d][i] += now_.water.on_sheets[sheet][d][i];
-    } else {
-      drag = water_->resist(body.particles, body.particle_height, body.particle_height, body.particles);
-      water_->spread(drag, body.particle_height, body.particles);
+  if constexpr (Dim == 2) {
+    if (!water_)
+      return;
+    now_.water.drag = Vec<Dim>::Zero();
+    slowed_power_ = 0.0;
+    for (std::size_t b = 0; b < now_.bodies.size(); ++b) {
+      Body& body = now_.bodies[b];
+      const Water::Uptake uptake = water_->immerse(body.density, body.particle_height, body.particles);
+      now_.ledger.water += uptake.left_behind;
+      now_.kinetic -= uptake.left_behind;
+      slowed_power_ += now_.gravity.dot(uptake.slowed);
+      const std::size_t sheet = sheet_around(b);
+      Water::Drag drag;
+      if (sheet < now_.sheets.size()) {
+        mpm::Particles<Dim>& nodes = now_.sheets[sheet].sheet.nodes();
+        drag = water_->resist(nodes, 0.0, body.particle_height, body.particles);
+        now_.water.on_sheets.resize(now_.sheets.size());
+        water_->press(drag, nodes, now_.water.on_sheets[sheet]);
+        for (std::size_t d = 0; d < 2; ++d)
+          for (std::size_t i = 0; i < nodes.size(); ++i)
+            nodes.force[d][i] += now_.water.on_sheets[sheet][d][i];
+      } else {
+        drag = water_->resist(body.particles, body.particle_height, body.particle_height, body.particles);
+        water_->spread(drag, body.particle_height, body.particles);
+      }
+      now_.water.drag += drag.force;
+      now_.water.fastest_fall = std::max(now_.water.fastest_fall, -drag.velocity[1]);
     }
-    now_.water.drag += drag.force;
-    now_.water.fastest_fall = std::max(now_.water.fastest_fall, -drag.velocity[1]);
+    load_sum_ += now_.water.drag;
+    weigh();
   }
-  load_sum_ += now_.water.drag;
-  weigh();
 }
 
 /// Index of the sheet around a body; of a bare one the number of sheets.
-std::size_t Model::sheet_around(std::size_t body) const
+template <int Dim>
+std::size_t Model<Dim>::sheet_around(std::size_t body) const
 {
   std::size_t s = 0;
   while (s < now_.sheets.size() && sheet_descriptions_[s].encloses != now_.bodies[body].name)
@@ -66,30 +71,32 @@ std::size_t Model::sheet_around(std::size_t body) const
 }
 
 /// Power of the drag that sheets take, on their nodes' present velocities, W/m.
-double Model::sheet_drag_power() const
+template <int Dim>
+double Model<Dim>::sheet_drag_power() const
 {
   double power = 0.0;
   for (std::size_t s = 0; s < now_.water.on_sheets.size(); ++s)
-    for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < Dim; ++d)
       for (std::size_t i = 0; i < now_.water.on_sheets[s][d].size(); ++i)
         power += now_.water.on_sheets[s][d][i] * now_.sheets[s].sheet.nodes().velocity[d][i];
   return power;
 }
 
 /// Power of all drag on the present velocities, W/m.
-double Model::drag_power() const
+template <int Dim>
+double Model<Dim>::drag_power() const
 {
   double power = sheet_drag_power();
   if (water_)
     for (const Body& body : now_.bodies)
       if (!body.enclosed)
         for (std::size_t p = 0; p < body.particles.size(); ++p)
-          power += body.particles.force[0][p] * body.particles.velocity[0][p] +
-                   body.particles.force[1][p] * body.particles.velocity[1][p];
+          power += body.particles.force_of(p).dot(body.velocity(p));
   return power;
 }
 
-std::optional<WaterFrame> Model::water() const
+template <int Dim>
+std::optional<WaterFrame> Model<Dim>::water() const
 {
   if (!water_)
     return std::nullopt;
@@ -99,21 +106,24 @@ std::optional<WaterFrame> Model::water() const
   for (const Body& body : now_.bodies)
     for (std::size_t p = 0; p < body.particles.size(); ++p) {
       const double v = body.particles.initial_volume[p];
-      displaced += v * water_->submerged(body.particles.position[1][p], body.particle_height);
+      displaced += v * water_->submerged(body.particles.position[z_axis<Dim>][p], body.particle_height);
       volume += v;
       weight += body.density * v;
     }
   for (const ModelSheet& sheet : now_.sheets)
     for (const double mass : sheet.sheet.nodes().weight_mass)
       weight += mass;
-  const double gravity = -constant_gravity_[1];
+  const double gravity = -constant_gravity_[z_axis<Dim>];
   frame.submerged_share = displaced / volume;
   frame.buoyancy_n_per_m = gravity * water_->density() * displaced;
   frame.submerged_weight_n_per_m = gravity * weight - frame.buoyancy_n_per_m;
   frame.fastest_fall_m_per_s = now_.water.fastest_fall;
-  frame.drag_impulse_n_s_per_m = now_.water.drag_impulse;
+  frame.drag_impulse_n_s_per_m = in_section<Dim>(now_.water.drag_impulse);
   frame.dissipated_j_per_m = now_.ledger.water;
   return frame;
 }
+
+template class Model<2>;
+template class Model<3>;
 
 }  // namespace geocontainer_mpm::scene

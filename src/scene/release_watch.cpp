@@ -9,7 +9,8 @@ namespace {
 /// A hull counts as open once its slot is wider than this, m: more than play and sensor noise make of a closed one.
 constexpr double open_slot_m = 0.05;
 
-double volume_of(const Body& body)
+template <int Dim>
+double volume_of(const Body<Dim>& body)
 {
   double volume = 0.0;
   for (double v : body.particles.volume)
@@ -17,22 +18,24 @@ double volume_of(const Body& body)
   return volume;
 }
 
-double soil_volume(const Model& model)
+template <int Dim>
+double soil_volume(const Model<Dim>& model)
 {
   double volume = 0.0;
-  for (const Body& body : model.bodies())
+  for (const Body<Dim>& body : model.bodies())
     for (double v : body.particles.volume)
       volume += v;
   return volume;
 }
 
+template <int Dim>
 struct Extent {
-  Vec2 lower = Vec2::Constant(1e300), upper = -lower;
+  Vec<Dim> lower = Vec<Dim>::Constant(1e300), upper = -lower;
 
-  void add(const mpm::Particles<2>& particles)
+  void add(const mpm::Particles<Dim>& particles)
   {
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Vec2 x(particles.position[0][p], particles.position[1][p]);
+      const Vec<Dim> x = particles.position_of(p);
       lower = lower.cwiseMin(x);
       upper = upper.cwiseMax(x);
     }
@@ -41,7 +44,8 @@ struct Extent {
 
 }  // namespace
 
-ReleaseWatch::ReleaseWatch(const SceneDescription& scene)
+template <int Dim>
+ReleaseWatch<Dim>::ReleaseWatch(const SceneDescription& scene)
     : hung_up_after_s_(scene.outcome.hung_up_after_s), watched_(scene.geotextiles.size())
 {
   if (scene.hull && !scene.geotextiles.empty()) {
@@ -51,14 +55,15 @@ ReleaseWatch::ReleaseWatch(const SceneDescription& scene)
   }
 }
 
-void ReleaseWatch::observe(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
+template <int Dim>
+void ReleaseWatch<Dim>::observe(const Model<Dim>& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
 {
   if (initial_volume_ < 0.0) {
     initial_volume_ = soil_volume(model);
     for (std::size_t s = 0; s < watched_.size(); ++s)
       if (model.sheets()[s].inside)
         watched_[s].initial_volume = volume_of(model.bodies()[*model.sheets()[s].inside]);
-    for (const Body& body : model.bodies())
+    for (const Body<Dim>& body : model.bodies())
       held_.push_back(body.held);
   }
   open_episodes(model, time_s);
@@ -70,7 +75,8 @@ void ReleaseWatch::observe(const Model& model, double time_s, const barge::Openi
 }
 
 /// For every container one since a body has started. Called before the tensions of this look are known.
-void ReleaseWatch::open_episodes(const Model& model, double time_s)
+template <int Dim>
+void ReleaseWatch<Dim>::open_episodes(const Model<Dim>& model, double time_s)
 {
   for (std::size_t b = 0; b < held_.size(); ++b) {
     if (!held_[b] || model.bodies()[b].held)
@@ -81,7 +87,8 @@ void ReleaseWatch::open_episodes(const Model& model, double time_s)
   }
 }
 
-void ReleaseWatch::measure(const ModelSheet& what, double time_s, Watched& watched)
+template <int Dim>
+void ReleaseWatch<Dim>::measure(const ModelSheet<Dim>& what, double time_s, Watched& watched)
 {
   const geotextile::Sheet& sheet = what.sheet;
   sheet.gauge_tension(gauge_);
@@ -107,13 +114,14 @@ void ReleaseWatch::measure(const ModelSheet& what, double time_s, Watched& watch
   }
 }
 
-void ReleaseWatch::judge(const ModelSheet& sheet, double time_s, const barge::OpeningAngles& opening,
+template <int Dim>
+void ReleaseWatch<Dim>::judge(const ModelSheet<Dim>& sheet, double time_s, const barge::OpeningAngles& opening,
                          double still_for_s, Watched& watched) const
 {
   if (sheet.held || watched.outcome == Outcome::released ||
       (watched.outcome == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
     return;
-  const mpm::Column& z = sheet.sheet.nodes().position[1];
+  const mpm::Column& z = sheet.sheet.nodes().position[z_axis<Dim>];
   if (*std::max_element(z.begin(), z.end()) < hull_->lowest_level_m(opening)) {
     watched.outcome = Outcome::released;
     watched.release_time_s = time_s;
@@ -123,7 +131,8 @@ void ReleaseWatch::judge(const ModelSheet& sheet, double time_s, const barge::Op
 }
 
 /// Of all together: released when the last is, hung up when one is.
-Outcome ReleaseWatch::outcome() const
+template <int Dim>
+Outcome ReleaseWatch<Dim>::outcome() const
 {
   if (!hull_)
     return Outcome::none;
@@ -136,7 +145,8 @@ Outcome ReleaseWatch::outcome() const
   return Outcome::released;
 }
 
-StatusFrame ReleaseWatch::status(const Model& model) const
+template <int Dim>
+StatusFrame ReleaseWatch<Dim>::status(const Model<Dim>& model) const
 {
   StatusFrame status;
   status.outcome = outcome();
@@ -161,10 +171,10 @@ StatusFrame ReleaseWatch::status(const Model& model) const
   status.soil_volume_m2 = soil_volume(model);
   status.soil_volume_initial_m2 = initial_volume_;
 
-  Extent extent;
-  for (const Body& body : model.bodies())
+  Extent<Dim> extent;
+  for (const Body<Dim>& body : model.bodies())
     extent.add(body.particles);
-  for (const ModelSheet& sheet : model.sheets())
+  for (const ModelSheet<Dim>& sheet : model.sheets())
     extent.add(sheet.sheet.nodes());
   status.centroid_m = model.centroid();
   status.width_m = extent.upper[0] - extent.lower[0];
@@ -175,10 +185,11 @@ StatusFrame ReleaseWatch::status(const Model& model) const
   return status;
 }
 
-ContainerStatus ReleaseWatch::container(const Model& model, std::size_t sheet) const
+template <int Dim>
+ContainerStatus ReleaseWatch<Dim>::container(const Model<Dim>& model, std::size_t sheet) const
 {
-  const ModelSheet& around = model.sheets()[sheet];
-  const Body& body = model.bodies()[*around.inside];
+  const ModelSheet<Dim>& around = model.sheets()[sheet];
+  const Body<Dim>& body = model.bodies()[*around.inside];
   const Watched& watched = watched_[sheet];
   ContainerStatus status;
   status.name = around.name;
@@ -194,7 +205,7 @@ ContainerStatus ReleaseWatch::container(const Model& model, std::size_t sheet) c
   status.soil_volume_m2 = volume_of(body);
   status.soil_volume_initial_m2 = watched.initial_volume;
   status.episodes = watched.episodes;
-  Extent extent;
+  Extent<Dim> extent;
   extent.add(body.particles);
   extent.add(around.sheet.nodes());
   status.width_m = extent.upper[0] - extent.lower[0];
@@ -208,11 +219,12 @@ ContainerStatus ReleaseWatch::container(const Model& model, std::size_t sheet) c
   return status;
 }
 
-void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force,
+template <int Dim>
+void fill_frame(const Model<Dim>& model, const SceneDescription& scene, const std::vector<Vec<Dim>>& boundary_force,
                 Frame& frame)
 {
-  for (const Body& body : model.bodies()) {
-    const mpm::Particles<2>& particles = body.particles;
+  for (const Body<Dim>& body : model.bodies()) {
+    const mpm::Particles<Dim>& particles = body.particles;
     SoilFrame soil;
     soil.name = body.name;
     const std::size_t n = particles.size();
@@ -222,15 +234,15 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     soil.volume.resize(n);
     for (std::size_t p = 0; p < n; ++p) {
       const std::size_t row = particles.id[p];  // order of creation, so that a row is one particle in every frame
-      soil.position[row] = { particles.position[0][p], particles.position[1][p] };
-      soil.velocity[row] = { particles.velocity[0][p], particles.velocity[1][p] };
+      soil.position[row] = in_space<3>(particles.position_of(p));
+      soil.velocity[row] = in_space<3>(particles.velocity_of(p));
       for (std::size_t k = 0; k < 4; ++k)
         soil.stress[row][k] = particles.stress[k][p];
       soil.volume[row] = particles.volume[p];
     }
     frame.soil.push_back(std::move(soil));
   }
-  for (const ModelSheet& enclosing : model.sheets()) {
+  for (const ModelSheet<Dim>& enclosing : model.sheets()) {
     const geotextile::Sheet& sheet = enclosing.sheet;
     const GeotextileDescription& description = scene.geotextiles.at(enclosing.name);
     GeotextileFrame geotextile;
@@ -258,5 +270,10 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     frame.boundary.push_back(std::move(boundary));
   }
 }
+
+template class ReleaseWatch<2>;
+template class ReleaseWatch<3>;
+template void fill_frame(const Model<2>&, const SceneDescription&, const std::vector<Vec2>&, Frame&);
+template void fill_frame(const Model<3>&, const SceneDescription&, const std::vector<Vec3>&, Frame&);
 
 }  // namespace geocontainer_mpm::scene

@@ -21,15 +21,21 @@ Vec2 rotate(const Vec2& x, const Vec2& pivot, double angle_deg)
   return pivot + Vec2(c * r[0] - s * r[1], s * r[0] + c * r[1]);
 }
 
-std::vector<Vec2> hopper_outline(double area, const HullDescription& hull)
+/// The inner wall of the port half from where the halves part, the last vertex on the plane of symmetry, upwards.
+std::vector<Vec2> hopper_wall(const HullDescription& hull)
 {
-  // The inner wall starts where the halves part: the last vertex on the plane of symmetry.
   std::vector<Vec2> wall;
   for (const Vec2& vertex : hull.port_section_m)
     if (vertex[0] <= 1e-9)
       wall.assign(1, vertex);
     else if (!wall.empty())
       wall.push_back(vertex);
+  return wall;
+}
+
+std::vector<Vec2> hopper_outline(double area, const HullDescription& hull)
+{
+  const std::vector<Vec2> wall = hopper_wall(hull);
   double filled = 0.0;
   std::vector<Vec2> half;
   if (!wall.empty())
@@ -121,6 +127,38 @@ bool contains(const std::vector<Vec2>& polygon, const Vec2& x)
 
 }  // namespace
 
+std::vector<Vec2> half_of_hopper(const HullDescription& hull)
+{
+  std::vector<Vec2> half;
+  for (const Vec2& vertex : hopper_wall(hull)) {
+    if (!half.empty() && vertex[1] <= half.back()[1])
+      break;
+    half.push_back(vertex);
+  }
+  half.emplace_back(0.0, half.back()[1]);
+  return half;
+}
+
+std::vector<Vec2> port_arc(const std::vector<Vec2>& polygon)
+{
+  const std::size_t n = polygon.size();
+  const auto crossing = [](const Vec2& a, const Vec2& b) {
+    return Vec2(0.0, a[1] + a[0] / (a[0] - b[0]) * (b[1] - a[1]));
+  };
+  std::vector<Vec2> arc;
+  for (std::size_t start = 0; start < n && arc.empty(); ++start) {
+    const Vec2 &before = polygon[start], &after = polygon[(start + 1) % n];
+    if (!(before[0] <= 0.0 && after[0] > 0.0))
+      continue;
+    arc.push_back(before[0] == 0.0 ? before : crossing(before, after));
+    std::size_t i = (start + 1) % n;
+    for (; polygon[i][0] > 0.0; i = (i + 1) % n)
+      arc.push_back(polygon[i]);
+    arc.push_back(polygon[i][0] == 0.0 ? polygon[i] : crossing(arc.back(), polygon[i]));
+  }
+  return arc;
+}
+
 double polygon_area(const std::vector<Vec2>& polygon)
 {
   double twice = 0.0;
@@ -205,7 +243,8 @@ std::vector<std::vector<Vec2>> boundary_lines(const ShapeDescription& shape, con
   return lines;
 }
 
-void jitter(double size, std::vector<Vec2>& points)
+template <int Dim>
+void jitter(double size, std::vector<Vec<Dim>>& points)
 {
   std::uint64_t state = 2016;
   const auto random = [&] {  // SplitMix64 (Steele, Lea and Flood 2014), to [-1, 1)
@@ -214,11 +253,12 @@ void jitter(double size, std::vector<Vec2>& points)
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return 0x1p-52 * static_cast<double>((z ^ (z >> 31)) >> 11) - 1.0;
   };
-  for (Vec2& x : points) {
-    x[0] += size * random();
-    x[1] += size * random();
-  }
+  for (Vec<Dim>& x : points)
+    for (double& component : x)
+      component += size * random();
 }
+template void jitter(double size, std::vector<Vec2>& points);
+template void jitter(double size, std::vector<Vec3>& points);
 
 namespace {
 

@@ -23,52 +23,39 @@ const char* to_string(Outcome outcome)
   return "none";
 }
 
-Simulation::Simulation(const SceneDescription& scene, int threads) : state_(std::make_unique<State>(scene, threads)) {}
-Simulation::~Simulation() = default;
-Simulation::Simulation(Simulation&&) noexcept = default;
-Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+namespace {
 
-barge::OpeningSignal& Simulation::opening()
+template <int Dim>
+void use_opening_of_scene(Run<Dim>& run)
 {
-  return state_->opening;
-}
-
-const barge::OpeningSignal& Simulation::opening() const
-{
-  return state_->opening;
-}
-
-void Simulation::use_scene_opening()
-{
-  State& s = *state_;
-  s.opening = barge::OpeningSignal(s.signal_parameters());
-  if (s.scene.hull) {
+  run.opening = barge::OpeningSignal(run.signal_parameters());
+  if (run.scene.hull) {
     std::vector<barge::OpeningPoint> points;
-    for (const OpeningRow& row : s.scene.hull->opening_table)
+    for (const OpeningRow& row : run.scene.hull->opening_table)
       points.push_back({ row.time_s, { row.port_rad, row.starboard_rad } });
-    s.opening = barge::OpeningSignal::through(points, "hull.opening_table");
+    run.opening = barge::OpeningSignal::through(points, "hull.opening_table");
     return;
   }
-  s.opening.finish();
+  run.opening.finish();
 }
 
-Advance Simulation::advance(int max_steps)
+template <int Dim>
+Advance advance_by(Run<Dim>& run, int max_steps)
 {
-  State& s = *state_;
-  if (s.progress.stopped)
+  if (run.progress.stopped)
     return Advance::stopped;
-  if (s.progress.next_frame == 0) {
-    s.begin();
+  if (run.progress.next_frame == 0) {
+    run.begin();
     return Advance::frame_due;
   }
   Advance result = Advance::waiting;
   for (int k = 0; k < max_steps; ++k) {
-    if (s.progress.time_s >= s.scene.time.end_s)
+    if (run.progress.time_s >= run.scene.time.end_s)
       return Advance::finished;
-    if (s.scene.hull && s.opening.known_until_s() < 0.0)
+    if (run.scene.hull && run.opening.known_until_s() < 0.0)
       return Advance::waiting;
     Advance now = Advance::waiting;
-    if (!(s.progress.resting ? s.rest_on(now) : s.step_once(now)))
+    if (!(run.progress.resting ? run.rest_on(now) : run.step_once(now)))
       return result;
     result = now;
     if (result != Advance::stepped)
@@ -77,101 +64,155 @@ Advance Simulation::advance(int max_steps)
   return result;
 }
 
+template <int Dim>
+void start_again(Run<Dim>& run)
+{
+  run.model.restore(run.settled);
+  run.opening = barge::OpeningSignal(run.signal_parameters());
+  run.watch = ReleaseWatch<Dim>(run.scene);
+  run.probes = run.fresh_probes;
+  run.progress = run.fresh_progress;
+  run.watch.observe(run.model, 0.0, {}, 0.0);
+}
+
+template <int Dim>
+StatusFrame status_of(const Run<Dim>& run)
+{
+  StatusFrame status = run.watch.status(run.model);
+  status.resting = run.progress.resting;
+  return status;
+}
+
+template <int Dim>
+RunCounters count(const Run<Dim>& run)
+{
+  RunCounters c;
+  for (const Body<Dim>& body : run.model.bodies())
+    c.particles += body.particles.size();
+  for (const ModelSheet<Dim>& sheet : run.model.sheets())
+    c.particles += sheet.sheet.nodes().size();
+  c.steps = run.progress.steps;
+  c.simulated_time_s = run.progress.time_s;
+  c.min_dt_s = run.progress.min_dt_s;
+  c.max_dt_s = run.progress.max_dt_s;
+  c.retries = run.progress.retries;
+  c.momentum_error = run.model.momentum_error();
+  c.skipped = run.model.state().skipped;
+  c.skipped.resting_time_s = run.progress.resting_time_s;
+  c.stages = run.model.stages();
+  return c;
+}
+
+template <int Dim>
+Frame frame_of(const Run<Dim>& run)
+{
+  Frame frame;
+  frame.time_s = run.progress.time_s;
+  frame.stamp_ns = run.opening.origin_ns() + std::llround(run.progress.time_s * 1e9);
+  frame.step = run.progress.steps;
+  frame.dt_s = run.progress.dt_s;
+  frame.opening = run.angles_at(run.progress.time_s);
+  frame.energy = run.model.energy();
+  frame.status = status_of(run);
+  frame.probes = run.probes.of_frame();
+  if (run.scene.water)
+    frame.water_level_m = run.scene.water_level_m();
+  fill_frame<Dim>(run.model, run.scene, run.progress.mean_force, frame);
+  const std::vector<contact::RigidPose> pose = run.motion.poses(frame.time_s, frame.opening);
+  for (std::size_t b = 0; b < frame.boundary.size(); ++b) {
+    frame.boundary[b].angle_rad = run.motion.angle(b, frame.time_s, frame.opening);
+    for (Vec3& x : frame.boundary[b].position)
+      x = pose[b].apply(x);
+  }
+  return frame;
+}
+
+}  // namespace
+
+Simulation::Simulation(const SceneDescription& scene, int threads) : state_(std::make_unique<State>())
+{
+  if (scene.dimensions() == 3)
+    state_->run = std::make_unique<Run<3>>(scene, threads);
+  else
+    state_->run = std::make_unique<Run<2>>(scene, threads);
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+barge::OpeningSignal& Simulation::opening()
+{
+  return state_->with([](auto& run) -> auto& { return run.opening; });
+}
+
+const barge::OpeningSignal& Simulation::opening() const
+{
+  return state_->with([](const auto& run) -> const auto& { return run.opening; });
+}
+
+void Simulation::use_scene_opening()
+{
+  state_->with([](auto& run) { use_opening_of_scene(run); });
+}
+
+Advance Simulation::advance(int max_steps)
+{
+  return state_->with([&](auto& run) { return advance_by(run, max_steps); });
+}
+
 void Simulation::reset()
 {
-  State& s = *state_;
-  s.model.restore(s.settled);
-  s.opening = barge::OpeningSignal(s.signal_parameters());
-  s.watch = ReleaseWatch(s.scene);
-  s.probes = s.fresh_probes;
-  s.progress = s.fresh_progress;
-  s.watch.observe(s.model, 0.0, {}, 0.0);
+  state_->with([](auto& run) { start_again(run); });
 }
 
 const SceneDescription& Simulation::scene() const
 {
-  return state_->scene;
+  return state_->with([](const auto& run) -> const auto& { return run.scene; });
 }
 
 double Simulation::time_s() const
 {
-  return state_->progress.time_s;
+  return state_->with([](const auto& run) { return run.progress.time_s; });
 }
 
 StatusFrame Simulation::status() const
 {
-  StatusFrame status = state_->watch.status(state_->model);
-  status.resting = state_->progress.resting;
-  return status;
+  return state_->with([](const auto& run) { return status_of(run); });
 }
 
 EnergyFrame Simulation::energy() const
 {
-  return state_->model.energy();
+  return state_->with([](const auto& run) { return run.model.energy(); });
 }
 
 std::optional<WaterFrame> Simulation::water() const
 {
-  return state_->model.water();
+  return state_->with([](const auto& run) { return run.model.water(); });
 }
 
 RunCounters Simulation::counters() const
 {
-  const State& s = *state_;
-  RunCounters c;
-  for (const Body& body : s.model.bodies())
-    c.particles += body.particles.size();
-  for (const ModelSheet& sheet : s.model.sheets())
-    c.particles += sheet.sheet.nodes().size();
-  c.steps = s.progress.steps;
-  c.simulated_time_s = s.progress.time_s;
-  c.min_dt_s = s.progress.min_dt_s;
-  c.max_dt_s = s.progress.max_dt_s;
-  c.retries = s.progress.retries;
-  c.momentum_error = s.model.momentum_error();
-  c.skipped = s.model.state().skipped;
-  c.skipped.resting_time_s = s.progress.resting_time_s;
-  c.stages = s.model.stages();
-  return c;
+  return state_->with([](const auto& run) { return count(run); });
 }
 
 const std::vector<ProbeFrame>& Simulation::probes() const
 {
-  return state_->probes.series();
+  return state_->with([](const auto& run) -> const auto& { return run.probes.series(); });
 }
 
 const Failure& Simulation::failure() const
 {
-  return state_->progress.failure;
+  return state_->with([](const auto& run) -> const auto& { return run.progress.failure; });
 }
 
 std::uint64_t Simulation::digest() const
 {
-  return state_->model.digest();
+  return state_->with([](const auto& run) { return run.model.digest(); });
 }
 
 Frame Simulation::frame() const
 {
-  const State& s = *state_;
-  Frame frame;
-  frame.time_s = s.progress.time_s;
-  frame.stamp_ns = s.opening.origin_ns() + std::llround(s.progress.time_s * 1e9);
-  frame.step = s.progress.steps;
-  frame.dt_s = s.progress.dt_s;
-  frame.opening = s.angles_at(s.progress.time_s);
-  frame.energy = energy();
-  frame.status = status();
-  frame.probes = s.probes.of_frame();
-  if (s.scene.water)
-    frame.water_level_m = s.scene.water_level_m();
-  fill_frame(s.model, s.scene, s.progress.mean_force, frame);
-  const std::vector<contact::RigidPose> pose = s.motion.poses(frame.time_s, frame.opening);
-  for (std::size_t b = 0; b < frame.boundary.size(); ++b) {
-    frame.boundary[b].angle_rad = s.motion.angle(b, frame.time_s, frame.opening);
-    for (Vec2& x : frame.boundary[b].position)
-      x = pose[b].apply(x);
-  }
-  return frame;
+  return state_->with([](const auto& run) { return frame_of(run); });
 }
 
 }  // namespace geocontainer_mpm::scene

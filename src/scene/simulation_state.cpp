@@ -77,7 +77,8 @@ ChangingTimes changing_times(const SceneDescription& scene)
 
 }  // namespace
 
-Simulation::State::State(const SceneDescription& description, int threads)
+template <int Dim>
+Run<Dim>::Run(const SceneDescription& description, int threads)
     : scene(description)
     , model(scene, threads)
     , opening(signal_parameters())
@@ -90,25 +91,27 @@ Simulation::State::State(const SceneDescription& description, int threads)
   settle();
   settled = model.state();
   explained_speed_ = explained_speed(scene, model);
-  progress.mean_force.assign(model.boundaries().size(), Vec2::Zero());
+  progress.mean_force.assign(model.boundaries().size(), Vec<Dim>::Zero());
   progress.interval_start = model.state().boundary_totals;
   fresh_progress = progress;
   watch.observe(model, 0.0, {}, 0.0);
 }
 
-barge::OpeningSignalParameters Simulation::State::signal_parameters() const
+template <int Dim>
+barge::OpeningSignalParameters Run<Dim>::signal_parameters() const
 {
   return scene.hull ? scene.hull->signal : barge::OpeningSignalParameters{};
 }
 
 /// Damped steps at time zero with the hull closed until everything is still. False if that did not happen, or the
 /// material slid further than `furthest_slide_m` on the way.
-bool Simulation::State::damp_to_rest(double furthest_slide_m)
+template <int Dim>
+bool Run<Dim>::damp_to_rest(double furthest_slide_m)
 {
   const std::vector<contact::RigidPose> closed = motion.poses(0.0, {});
   const double damping = 2.0 * settling_damping * model.fundamental_frequency();
   const double still = settled_part_of_rest_velocity * scene.numerics.rest_velocity_m_per_s;
-  const Vec2 from = model.centroid();
+  const Vec<Dim> from = model.centroid();
   double time = 0.0, moved = 0.0;
   while (time - moved < settled_for_s) {
     const double dt = model.stable_dt(0.0);
@@ -126,11 +129,12 @@ bool Simulation::State::damp_to_rest(double furthest_slide_m)
 /// Lets bodies that ask for it come to rest under gravity with the hull closed: first held where they touch, then with
 /// their true friction; where that cannot hold them, the held state is the start. A state that cannot
 /// settle at all ends the run before it begins.
-void Simulation::State::settle()
+template <int Dim>
+void Run<Dim>::settle()
 {
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
                   [](const auto& body) { return body.second.initial_stress == InitialStress::gravity; })) {
-    const ModelState raw = model.state();
+    const ModelState<Dim> raw = model.state();
     model.hold(true);
     damp_to_rest(std::numeric_limits<double>::infinity());
     model.hold(false);
@@ -140,7 +144,7 @@ void Simulation::State::settle()
       progress.failure.reason = "while settling under gravity: " + progress.failure.reason;
       model.restore(raw);
     } else {
-      const ModelState held = model.state();
+      const ModelState<Dim> held = model.state();
       if (!damp_to_rest(scene.grid.cell_size_m))
         model.restore(held);
     }
@@ -148,25 +152,29 @@ void Simulation::State::settle()
   model.open_ledger();
 }
 
-barge::OpeningAngles Simulation::State::angles_at(double time_s) const
+template <int Dim>
+barge::OpeningAngles Run<Dim>::angles_at(double time_s) const
 {
   return scene.hull && opening.known_until_s() >= 0.0 ? opening.angles(time_s) : barge::OpeningAngles{};
 }
 
 /// The end counts as an output instant.
-double Simulation::State::output_time_s() const
+template <int Dim>
+double Run<Dim>::output_time_s() const
 {
   return std::min(static_cast<double>(progress.next_frame) * scene.time.output_interval_s, scene.time.end_s);
 }
 
-double Simulation::State::sample_time_s() const
+template <int Dim>
+double Run<Dim>::sample_time_s() const
 {
   if (probes.empty())
     return std::numeric_limits<double>::infinity();
   return static_cast<double>(progress.next_sample) * scene.time.probe_interval_s.value_or(scene.time.output_interval_s);
 }
 
-void Simulation::State::sample_if_due()
+template <int Dim>
+void Run<Dim>::sample_if_due()
 {
   if (progress.time_s < sample_time_s() - same_instant_s)
     return;
@@ -179,13 +187,14 @@ void Simulation::State::sample_if_due()
 }
 
 /// Closes an output interval when its end is reached.
-bool Simulation::State::output_reached()
+template <int Dim>
+bool Run<Dim>::output_reached()
 {
   sample_if_due();
   if (progress.time_s < output_time_s() - same_instant_s)
     return false;
   ++progress.next_frame;
-  const std::vector<BoundaryTotal>& totals = model.state().boundary_totals;
+  const std::vector<BoundaryTotal<Dim>>& totals = model.state().boundary_totals;
   const double length = progress.time_s - progress.interval_start_s;
   if (length > 0.0 && !progress.resting)
     for (std::size_t b = 0; b < totals.size(); ++b)
@@ -197,7 +206,8 @@ bool Simulation::State::output_reached()
 }
 
 /// The first frame.
-void Simulation::State::begin()
+template <int Dim>
+void Run<Dim>::begin()
 {
   output_reached();
   progress.start = model.energy();
@@ -205,14 +215,16 @@ void Simulation::State::begin()
 }
 
 /// When something that the scene prescribes changes next: hull, surfaces, loads.
-double Simulation::State::next_change_s(double time_s) const
+template <int Dim>
+double Run<Dim>::next_change_s(double time_s) const
 {
   return std::min(changes.next(time_s),
                   scene.hull ? opening.next_motion_s(time_s) : std::numeric_limits<double>::infinity());
 }
 
 /// How long everything has been slow while nothing was driven, s.
-double Simulation::State::still_for_s() const
+template <int Dim>
+double Run<Dim>::still_for_s() const
 {
   // At rest the hull is known to have been still; the end of the known opening must not look like motion.
   const bool undriven = progress.resting || next_change_s(progress.time_s) > progress.time_s;
@@ -220,7 +232,8 @@ double Simulation::State::still_for_s() const
 }
 
 /// Jumps over rest. False while the opening is not known ahead.
-bool Simulation::State::rest_on(Advance& result)
+template <int Dim>
+bool Run<Dim>::rest_on(Advance& result)
 {
   const double from = progress.time_s;
   double to = std::min({ output_time_s(), sample_time_s(), scene.time.end_s });
@@ -247,7 +260,8 @@ bool Simulation::State::rest_on(Advance& result)
 
 /// As long as stability allows, halved where a step went wrong, and landing on what comes next without a sliver of a
 /// step.
-double Simulation::State::step_length(double stable_dt) const
+template <int Dim>
+double Run<Dim>::step_length(double stable_dt) const
 {
   double dt = std::ldexp(stable_dt, -progress.halvings);
   for (const double instant : { output_time_s(), sample_time_s(), scene.time.end_s, model.next_start_s() }) {
@@ -258,7 +272,8 @@ double Simulation::State::step_length(double stable_dt) const
   return dt;
 }
 
-void Simulation::State::count_step(double dt)
+template <int Dim>
+void Run<Dim>::count_step(double dt)
 {
   progress.time_s += dt;
   progress.dt_s = dt;
@@ -269,7 +284,8 @@ void Simulation::State::count_step(double dt)
 }
 
 /// One step. False while the opening is not known far enough ahead.
-bool Simulation::State::step_once(Advance& result)
+template <int Dim>
+bool Run<Dim>::step_once(Advance& result)
 {
   const double dt = step_length(model.stable_dt(progress.time_s)), before = progress.time_s, after = before + dt;
   if (scene.hull && after >= opening.known_until_s())
@@ -305,7 +321,8 @@ bool Simulation::State::step_once(Advance& result)
 }
 
 /// What a step did that nothing explains; what costs more to find only where `look` says so.
-std::optional<Failure> Simulation::State::find_wrong(const StepInput& step, bool look)
+template <int Dim>
+std::optional<Failure> Run<Dim>::find_wrong(const StepInput& step, bool look)
 {
   progress.wall_speed = std::max(progress.wall_speed, fastest_wall(model, step));
   const double explained = explained_speed_ + progress.wall_speed, limit = scene.numerics.speed_jump * explained;
@@ -329,7 +346,8 @@ std::optional<Failure> Simulation::State::find_wrong(const StepInput& step, bool
 
 /// Has energy appeared that nothing accounts for: since the last checkpoint, compared with the motion that there was
 /// and what changed hands meanwhile, or since the start, compared with the most that changed hands?
-bool Simulation::State::energy_jumped(const EnergyFrame& now)
+template <int Dim>
+bool Run<Dim>::energy_jumped(const EnergyFrame& now)
 {
   const EnergyFrame& then = checkpoint_->energy;
   const double part = scene.numerics.energy_jump, negligible = negligible_energy * (now.kinetic + now.elastic);
@@ -345,7 +363,8 @@ bool Simulation::State::energy_jumped(const EnergyFrame& now)
   return jumped(from_nowhere(now), whole_run * part * (there + progress.turnover));
 }
 
-void Simulation::State::save()
+template <int Dim>
+void Run<Dim>::save()
 {
   if (checkpoint_) {
     checkpoint_->model = model.state();
@@ -360,7 +379,8 @@ void Simulation::State::save()
 }
 
 /// Back to the last checkpoint, with steps of half the length until the doubtful time has passed; or the end.
-Advance Simulation::State::undo(const Failure& failure)
+template <int Dim>
+Advance Run<Dim>::undo(const Failure& failure)
 {
   const double wrong_s = progress.time_s;
   const std::uint64_t retries = progress.retries;
@@ -386,5 +406,8 @@ Advance Simulation::State::undo(const Failure& failure)
         fmt::format("; steps of 1/{} of the stable length did not help", 1 << scene.numerics.max_halvings);
   return Advance::stopped;
 }
+
+template struct Run<2>;
+template struct Run<3>;
 
 }  // namespace geocontainer_mpm::scene

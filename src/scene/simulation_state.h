@@ -1,7 +1,9 @@
 #pragma once
 /// The inside of Simulation: when to step, when to rest, when to undo.
 
+#include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "geocontainer_mpm/scene/changing_times.h"
@@ -13,7 +15,9 @@
 
 namespace geocontainer_mpm::scene {
 
-struct Simulation::State {
+/// A run in plane strain or in space.
+template <int Dim>
+struct Run {
   /// What reset() restores, beside model, watch and probes.
   struct Progress {
     double time_s = 0.0;
@@ -25,8 +29,8 @@ struct Simulation::State {
     std::uint64_t steps = 0;
     double resting_time_s = 0.0;
     double interval_start_s = 0.0;
-    std::vector<BoundaryTotal> interval_start;  ///< per boundary body
-    std::vector<Vec2> mean_force;               ///< over the last output interval, N/m
+    std::vector<BoundaryTotal<Dim>> interval_start;  ///< per boundary body
+    std::vector<Vec<Dim>> mean_force;               ///< over the last output interval, N/m; in space N
     std::uint64_t retries = 0;
     int halvings = 0;         ///< steps are shortened by this power of two
     double doubtful_s = 0.0;  ///< where a step went wrong last
@@ -38,14 +42,14 @@ struct Simulation::State {
   };
   /// The last state that was found right, with what its energy balance was.
   struct Checkpoint {
-    ModelState model;
+    ModelState<Dim> model;
     Progress progress;
-    ReleaseWatch watch;
-    Probes probes;
+    ReleaseWatch<Dim> watch;
+    Probes<Dim> probes;
     EnergyFrame energy;
   };
 
-  State(const SceneDescription& description, int threads);
+  Run(const SceneDescription& description, int threads);
 
   barge::OpeningSignalParameters signal_parameters() const;
   barge::OpeningAngles angles_at(double time_s) const;
@@ -54,15 +58,15 @@ struct Simulation::State {
   bool rest_on(Advance& result);
 
   SceneDescription scene;
-  Model model;
+  Model<Dim> model;
   barge::OpeningSignal opening;
   PrescribedMotion motion;
   ChangingTimes changes;
-  ReleaseWatch watch;
-  Probes probes;
+  ReleaseWatch<Dim> watch;
+  Probes<Dim> probes;
   Progress progress;
-  ModelState settled;  ///< what reset() goes back to
-  Probes fresh_probes;
+  ModelState<Dim> settled;  ///< what reset() goes back to
+  Probes<Dim> fresh_probes;
   Progress fresh_progress;
 
 private:
@@ -84,6 +88,16 @@ private:
   double explained_speed_ = 0.0;  ///< m/s, without rigid surfaces
   std::optional<Checkpoint> checkpoint_;
   int steps_since_checkpoint_ = 0;
+};
+
+struct Simulation::State {
+  std::variant<std::unique_ptr<Run<2>>, std::unique_ptr<Run<3>>> run;
+  /// Calls `f` with the run, whichever it is.
+  template <class F>
+  decltype(auto) with(F&& f) const
+  {
+    return std::visit([&](const auto& is) -> decltype(auto) { return f(*is); }, run);
+  }
 };
 
 }  // namespace geocontainer_mpm::scene

@@ -33,6 +33,18 @@ struct Particles {
   std::vector<std::uint32_t> id;                        ///< index at creation: sorting reorders the arrays
 
   std::size_t size() const { return mass.size(); }
+  // Of row p.
+  Vec<Dim> position_of(std::size_t p) const { return vector_of(position, p); }
+  Vec<Dim> velocity_of(std::size_t p) const { return vector_of(velocity, p); }
+  Vec<Dim> force_of(std::size_t p) const { return vector_of(force, p); }
+  Mat<Dim> gradient_of(std::size_t p) const
+  {
+    Mat<Dim> result;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j)
+        result(i, j) = gradient[static_cast<std::size_t>(i * Dim + j)][p];
+    return result;
+  }
   /// All columns to `count` zeros, ids 0, 1, ...; without deformation and boxes.
   void resize(std::size_t count);
   /// For the laws that need it: a deformation gradient for every row, the identity.
@@ -72,6 +84,14 @@ struct Particles {
   }
 
 private:
+  static Vec<Dim> vector_of(const std::array<Column, Dim>& columns, std::size_t p)
+  {
+    Vec<Dim> v;
+    for (int d = 0; d < Dim; ++d)
+      v[d] = columns[static_cast<std::size_t>(d)][p];
+    return v;
+  }
+
   Column scratch_;  ///< reused by permute, so that sorting while stepping does not allocate
   std::vector<std::uint32_t> id_scratch_;
 };

@@ -38,6 +38,21 @@ struct GridDescription {
   std::array<FaceCondition, 4> faces{};
 };
 
+/// Which part of a scene in space that is its own mirror image is computed; the planes of symmetry are y = 0 and x = 0.
+enum class Symmetry {
+  none,    ///< all of it
+  half,    ///< the port half, y >= 0
+  quarter  ///< of that the fore half, x >= 0
+};
+
+/// Given, a scene is three-dimensional: the section that all else draws in y and z reaches along the barge.
+struct SpaceDescription {
+  Vec2 along_m = Vec2::Zero();  ///< from and to, x of the space that material may occupy, m; a whole number of cells
+  /// Order x_min, x_max. Rollers make the ends what plane strain takes them for.
+  std::array<FaceCondition, 2> faces{ FaceCondition::roller, FaceCondition::roller };
+  Symmetry symmetry = Symmetry::none;
+};
+
 struct NumericsDescription {
   mpm::Discretisation method;      ///< shape, transfer, flip_fraction, mass, update, smoothing
   double time_step_factor = 0.8;   ///< fraction of the stability bound that a step may use, (0, 1]
@@ -116,7 +131,8 @@ inline constexpr const char* common_field = "common";
 struct BodyDescription {
   std::string material;  ///< a key of `materials`
   ShapeDescription shape;
-  int particles_per_cell = 2;  ///< in each direction, 1 to 4
+  std::optional<Vec2> along_m;  ///< from and to, m: in space the shape reaches so far along x, with flat ends
+  int particles_per_cell = 2;   ///< in each direction, 1 to 4
   double jitter = 0.0;         ///< furthest random offset of a particle, over the spacing, [0, 0.5]
   /// Bodies that name the same field move in one velocity field and stick together where they meet. Fields touch by
   /// `contacts`. Empty: the common field.
@@ -221,6 +237,10 @@ struct GeotextileDescription {
   Vec2 initial_velocity_m_per_s = Vec2::Zero();       ///< of a free sheet
   std::optional<VelocityWave> initial_velocity_wave;  ///< of a free sheet, on top
   double stiffness_n_per_m = 0.0;                     ///< J (warp), force per width and strain, > 0; unless a table is
+  // Along the barge, in space; not given: as across it (warp).
+  std::optional<double> stiffness_weft_n_per_m;                     ///< > 0
+  std::optional<double> strength_weft_n_per_m;                      ///< > 0
+  std::vector<geotextile::ForceStrainRow> force_strain_weft_table;  ///< empty: linear
   double mass_kg_per_m2 = 0.0;                        ///< true mass: what gravity pulls, > 0
   double computational_mass_kg_per_m2 = 0.0;          ///< inertia used (mass scaling), >= true mass
   double strength_n_per_m = 0.0;                      ///< tensile strength of the sheet (warp), > 0
@@ -250,6 +270,9 @@ struct HullDescription {
   std::vector<Vec2> port_section_m;
   double lip_radius_m = 0.0;              ///< corners of the section are rounded with this radius, m, >= 0
   double friction = 0.0;                  ///< Coulomb coefficient geotextile on hull, >= 0
+  /// From and to, m: in space the hopper between its end bulkheads, half of which moves with each half of the hull. Not
+  /// given: no bulkheads. The walls reach through the whole space.
+  std::optional<Vec2> along_m;
   std::vector<OpeningRow> opening_table;  ///< used when no log is given; empty: stays closed
   barge::OpeningSignalParameters signal;  ///< how logged angles are judged and filtered
 };
@@ -316,6 +339,7 @@ struct SceneDescription {
   TimeTable<2> gravity_table;  ///< [t, g_y, g_z]: body force per mass over time, m/s^2, instead of gravity_m_per_s2
   TimeDescription time;
   GridDescription grid;
+  std::optional<SpaceDescription> space;  ///< not given: plane strain
   NumericsDescription numerics;
   std::map<std::string, material::Parameters> materials;
   std::map<std::string, BodyDescription> bodies;             ///< at least one body or geotextile
@@ -328,6 +352,10 @@ struct SceneDescription {
   std::map<std::string, ProbeDescription> probes;
   OutcomeDescription outcome;
   std::optional<WaterDescription> water;
+
+  /// 2 in plane strain, 3 in space.
+  int dimensions() const { return space ? 3 : 2; }
+  Symmetry symmetry() const { return space ? space->symmetry : Symmetry::none; }
 
   /// Gravity at an instant, from whichever of the two is given.
   Vec2 gravity_at(double time_s) const;

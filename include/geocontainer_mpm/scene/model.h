@@ -6,12 +6,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "geocontainer_mpm/contact/contact_solver.h"
 #include "geocontainer_mpm/contact/field_contact.h"
 #include "geocontainer_mpm/contact/sheet_contact.h"
+#include "geocontainer_mpm/geotextile/membrane.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
 #include "geocontainer_mpm/geotextile/strength.h"
 #include "geocontainer_mpm/mpm/frequency_bound.h"
@@ -27,66 +29,70 @@
 
 namespace geocontainer_mpm::scene {
 
+template <int Dim>
 struct Body {
   std::string name;
   std::size_t field = 0;  ///< index of its velocity field
-  mpm::Particles<2> particles;
+  mpm::Particles<Dim> particles;
   mpm::Strips strips;
   std::vector<std::uint32_t> row;  ///< where the particle with an id stands
-  std::shared_ptr<const material::Law<2>> law;
+  std::shared_ptr<const material::Law<Dim>> law;
   mpm::Moduli elastic, viscous;  ///< of the unstrained material; viscous: any multiple of it
   mpm::StressDamping damping;
   bool enclosed = false;  ///< a sheet is its surface
   bool held = false;      ///< it has not started yet: stands where it is and takes no part
   std::shared_ptr<const Manufactured> manufactured;
-  std::shared_ptr<const std::vector<Vec2>> start;  ///< positions at the start by id, m
+  std::shared_ptr<const std::vector<Vec<Dim>>> start;  ///< positions at the start by id, m
   double density = 0.0;                            ///< of the material, kg/m^3
   double particle_height = 0.0;                    ///< over which a particle enters the water, m; without water 0
 
   /// Without water that moves with it, kg/m.
   double own_mass(std::size_t p) const { return density * particles.initial_volume[p]; }
-  Vec2 position(std::size_t p) const { return { particles.position[0][p], particles.position[1][p] }; }
-  Vec2 velocity(std::size_t p) const { return { particles.velocity[0][p], particles.velocity[1][p] }; }
-  /// dv_i/dx_j of the last step, 1/s.
-  Mat2 gradient(std::size_t p) const
-  {
-    Mat2 gradient;
-    gradient << particles.gradient[0][p], particles.gradient[1][p], particles.gradient[2][p], particles.gradient[3][p];
-    return gradient;
-  }
+  Vec<Dim> position(std::size_t p) const { return particles.position_of(p); }
+  Vec<Dim> velocity(std::size_t p) const { return particles.velocity_of(p); }
+  Mat<Dim> gradient(std::size_t p) const { return particles.gradient_of(p); }
 };
 
+/// What a geotextile is: a line in the section, a surface in space.
+template <int Dim>
+using SheetOf = std::conditional_t<Dim == 2, geotextile::Sheet, geotextile::Membrane>;
+
+template <int Dim>
 struct ModelSheet {
   std::string name;
   std::size_t field = 0;
-  geotextile::Sheet sheet;
-  geotextile::Strength strength;
+  SheetOf<Dim> sheet;
+  geotextile::Strength strength;       ///< across the barge (warp)
+  geotextile::Strength strength_weft;  ///< along it; in space
   std::optional<std::size_t> inside = std::nullopt;  ///< the body that it encloses
   bool held = false;                                 ///< as that body
 };
 
 /// A point of a body that is watched. It is carried by the particle nearest to it at the start: on the surface the
 /// grid's own velocity field is extrapolated, and a free point would drift off.
+template <int Dim>
 struct Tracer {
   std::size_t body;
   std::uint32_t owner;  ///< id of the particle
-  Vec2 offset;          ///< from it; follows its deformation, m
-  Vec2 position;        ///< m
-  Vec2 velocity;        ///< of the last step, by its way: with FLIP particles have another, m/s
+  Vec<Dim> offset;          ///< from it; follows its deformation, m
+  Vec<Dim> position;        ///< m
+  Vec<Dim> velocity;        ///< of the last step, by its way: with FLIP particles have another, m/s
 };
 
 /// What a boundary body has done to the material since the start, per unit width.
+template <int Dim>
 struct BoundaryTotal {
-  Vec2 impulse = Vec2::Zero();  ///< N s / m
+  Vec<Dim> impulse = Vec<Dim>::Zero();  ///< N s / m
   double moment = 0.0;          ///< about its pivot, N s
   double work = 0.0;            ///< J/m
 };
 
 /// What the water has done since the start, per unit width.
+template <int Dim>
 struct WaterState {
-  Vec2 drag = Vec2::Zero();                           ///< of the present step, N/m
-  Vec2 drag_impulse = Vec2::Zero();                   ///< N s / m
-  std::vector<std::array<mpm::Column, 2>> on_sheets;  ///< what of it sheets take, by node; empty: none, N/m
+  Vec<Dim> drag = Vec<Dim>::Zero();                           ///< of the present step, N/m
+  Vec<Dim> drag_impulse = Vec<Dim>::Zero();                   ///< N s / m
+  std::vector<std::array<mpm::Column, Dim>> on_sheets;  ///< what of it sheets take, by node; empty: none, N/m
   double fastest_fall = 0.0;                          ///< downward mean velocity of the submerged part of a body, m/s
 };
 
@@ -113,19 +119,20 @@ struct StepInput {
 };
 
 /// Everything that steps change.
+template <int Dim>
 struct ModelState {
-  std::vector<Body> bodies;
-  std::vector<ModelSheet> sheets;
-  std::vector<Traction> tractions;
-  std::vector<Tracer> tracers;
-  std::vector<contact::ContactSolver> contact;       ///< per field
+  std::vector<Body<Dim>> bodies;
+  std::vector<ModelSheet<Dim>> sheets;
+  std::vector<Traction> tractions;                   ///< in plane strain
+  std::vector<Tracer<Dim>> tracers;
+  std::vector<contact::ContactSolver<Dim>> contact;       ///< per field
   std::vector<contact::SheetContact> sheet_contact;  ///< in the order of the model's pairs
-  std::vector<BoundaryTotal> boundary_totals;
-  WaterState water;
+  std::vector<BoundaryTotal<Dim>> boundary_totals;
+  WaterState<Dim> water;
   Ledger ledger;
   SkippedCounts skipped;
   StepStatus health;
-  Vec2 gravity = Vec2::Zero();  ///< of the last step, m/s^2
+  Vec<Dim> gravity = Vec<Dim>::Zero();  ///< of the last step, m/s^2
   double kinetic = 0.0;         ///< on the grids after the last step, J/m
   bool kinetic_known = false;
   double last_dt = 0.0;             ///< s
@@ -140,8 +147,13 @@ struct ModelState {
   bool sorted = false;
 };
 
+template <int Dim>
 class Model {
 public:
+  using Body = scene::Body<Dim>;
+  using ModelSheet = scene::ModelSheet<Dim>;
+  using ModelState = scene::ModelState<Dim>;
+
   /// Bodies, sheets and boundaries as described; throws InputError for what only building can find out.
   Model(const SceneDescription& scene, int threads);
 
@@ -164,14 +176,13 @@ public:
 
   const std::vector<Body>& bodies() const { return now_.bodies; }
   const std::vector<ModelSheet>& sheets() const { return now_.sheets; }
-  const std::vector<contact::BoundaryBody>& boundaries() const { return boundaries_; }
-  /// Index of the first hull half in boundaries() (port, then starboard), or -1.
-  int hull_index() const { return hull_index_; }
+  /// Parts of the hull as hull_parts() has them, then the surfaces by name.
+  const std::vector<contact::BoundaryBody<Dim>>& boundaries() const { return boundaries_; }
   /// A new tracer at a point of a body, before the first step; its index.
-  std::size_t add_tracer(std::size_t body, const Vec2& at);
+  std::size_t add_tracer(std::size_t body, const Vec<Dim>& at);
 
   double rms_velocity() const;     ///< by mass, of the last step, m/s
-  Vec2 centroid() const;           ///< of the bodies (of the sheets where there are none), by mass, m
+  Vec<Dim> centroid() const;           ///< of the bodies (of the sheets where there are none), by mass, m
   double soil_mass() const;        ///< without water that moves with it, kg/m
   double fundamental_frequency();  ///< rough lowest frequency of the bodies, rad/s: for settling
   EnergyFrame energy() const;
@@ -187,17 +198,17 @@ public:
 private:
   /// One velocity field: what moves on one grid.
   struct Field {
-    Field(std::string field_name, mpm::Grid<2> field_grid) : name(std::move(field_name)), grid(std::move(field_grid)) {}
+    Field(std::string field_name, mpm::Grid<Dim> field_grid) : name(std::move(field_name)), grid(std::move(field_grid)) {}
 
     std::string name;
-    mpm::Grid<2> grid;
-    mpm::GridUpdate<2> update;
-    mpm::FrequencyBound<2> bound;
-    Vec2 extent_lower = Vec2::Zero(), extent_upper = Vec2::Zero();  ///< of its particles, m
-    std::vector<contact::ContactPoints> all_points;                 ///< scratch of step()
-    std::vector<contact::ContactPoints> points;                     ///< scratch of step()
-    contact::ContactImpulses impulses;
-    std::vector<contact::Anchor> anchors;
+    mpm::Grid<Dim> grid;
+    mpm::GridUpdate<Dim> update;
+    mpm::FrequencyBound<Dim> bound;
+    Vec<Dim> extent_lower = Vec<Dim>::Zero(), extent_upper = Vec<Dim>::Zero();  ///< of its particles, m
+    std::vector<contact::ContactPoints<Dim>> all_points;                 ///< scratch of step()
+    std::vector<contact::ContactPoints<Dim>> points;                     ///< scratch of step()
+    contact::ContactImpulses<Dim> impulses;
+    std::vector<contact::Anchor<Dim>> anchors;
   };
   /// Contact of two fields.
   struct FieldPair {
@@ -217,13 +228,13 @@ private:
     double at_s;
     std::size_t body;
     std::optional<std::size_t> sheet;
-    mpm::Particles<2> body_start, sheet_start;  ///< as built
+    mpm::Particles<Dim> body_start, sheet_start;  ///< as built
     double weight_mass, inertia;                ///< kg/m
   };
   /// An end of an open sheet that is held, or led.
   struct HeldEnd {
     std::size_t sheet, node;
-    Vec2 place;           ///< at the start, m
+    Vec<Dim> place;           ///< at the start, m
     TimeTable<2> motion;  ///< displacement over time, m
   };
 
@@ -233,22 +244,23 @@ private:
   void build_sheets(const SceneDescription& scene);
   void build_boundaries(const SceneDescription& scene);
   void build_loads(const SceneDescription& scene);
+  void build_tractions(const SceneDescription& scene);
   std::size_t field_index(const std::string& name) const;
   // model_containers.cpp: containers touch by their sheets, slip in them, and start when they are to
   void build_contacts(const SceneDescription& scene);
   void build_late_starts(const SceneDescription& scene);
   std::optional<std::size_t> sheet_of_container(const SceneDescription& scene, const std::string& field) const;
   void add_sheet_pair(const SheetPair& pair, contact::SheetSide side, double friction);
-  contact::ContactPoints points_of(const SheetPair& pair) const;
+  contact::ContactPoints<Dim> points_of(const SheetPair& pair) const;
   bool takes_part(const SheetPair& pair) const;
   void solve_sheet_contact(const StepInput& input, double kick);
-  void take(const contact::ContactSums& sums);
+  void take(const contact::ContactSums<Dim>& sums);
   void take_impulses(const Field& field);
   void start_bodies(double time_s);
   double held(double LateStart::*what) const;
 
   // model.cpp: one step
-  Vec2 gravity_at(double time_s) const;
+  Vec<Dim> gravity_at(double time_s) const;
   void sort_particles();
   void open_grids();
   void transfer_to_grid(double time_s);
@@ -287,7 +299,7 @@ private:
   // model_balance.cpp: sums
   double elastic_energy() const;
   double potential_energy() const;
-  double gravity_power(const Vec2& gravity) const;
+  double gravity_power(const Vec<Dim>& gravity) const;
   double plastic_work() const;
   double damping_power() const;
   double stress_power() const;
@@ -297,22 +309,21 @@ private:
 
   std::shared_ptr<mpm::ThreadTeam> team_;  ///< shared by copies of the model: one steps at a time
   mpm::Discretisation method_;
-  Vec2 constant_gravity_;
+  Vec<Dim> constant_gravity_;
   TimeTable<2> gravity_table_;
   std::vector<GeotextileDescription> sheet_descriptions_;  ///< in the order of the sheets
   std::vector<HeldEnd> held_ends_;
   std::vector<SupportDescription> supports_;
   double time_step_factor_, max_step_, max_travel_;
-  Vec2 lower_, upper_;
-  mpm::Sorter<2> sorter_;
+  Vec<Dim> lower_, upper_;
+  mpm::Sorter<Dim> sorter_;
   std::vector<Field> fields_;
   std::vector<FieldPair> pairs_;
   std::vector<SheetPair> sheet_pairs_;
   std::vector<LateStart> late_starts_;
-  std::vector<contact::BoundaryBody> boundaries_;
+  std::vector<contact::BoundaryBody<Dim>> boundaries_;
   std::vector<std::size_t> traction_body_;  ///< per traction, the index of its body
   std::optional<Water> water_;
-  int hull_index_ = -1;
   double weight_mass_ = 0.0;  ///< what gravity pulls in all, less buoyancy, kg/m
   double inertia_ = 0.0;      ///< all mass, kg/m
 
@@ -323,7 +334,7 @@ private:
   double drag_power_before_ = 0.0;  ///< of drag, W/m
   double slowed_power_ = 0.0;       ///< of weight on the velocity that water taken up has taken, W/m
   double power_before_ = 0.0;       ///< of all forces on the motion before the transfer, W/m
-  Vec2 load_sum_ = Vec2::Zero();    ///< of all loads but gravity, N/m
+  Vec<Dim> load_sum_ = Vec<Dim>::Zero();    ///< of all loads but gravity, N/m
   StageTimes stages_;
 };
 

@@ -2,6 +2,7 @@
 /// Where the rigid surfaces of a scene are: hull halves by the opening angles, the others by their own tables.
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geocontainer_mpm/barge/split_hull.h"
@@ -10,17 +11,29 @@
 
 namespace geocontainer_mpm::scene {
 
+/// A rigid part of the hull.
+struct HullPart {
+  enum class What { wall, aft_bulkhead, fore_bulkhead };
+  std::string name;
+  barge::HullHalf half;  ///< it moves with
+  What what;
+};
+
+/// The parts of a scene's hull that are computed: port wall first, then starboard's, then bulkheads; none without hull.
+std::vector<HullPart> hull_parts(const SceneDescription& scene);
+
 class PrescribedMotion {
 public:
   explicit PrescribedMotion(const SceneDescription& scene);
 
-  /// In the order of Model::boundaries(): hull_port, hull_starboard, then the surfaces by name.
+  /// In the order of Model::boundaries(): parts of the hull, then the surfaces by name.
   std::vector<contact::RigidPose> poses(double time_s, const barge::OpeningAngles& opening) const;
-  /// Rotation of boundary body `b` about its pivot; of a hull half: opening positive, rad.
+  /// Rotation of boundary body `b` about its pivot; of a part of the hull: opening positive, rad.
   double angle(std::size_t b, double time_s, const barge::OpeningAngles& opening) const;
 
 private:
   std::optional<barge::SplitHull> hull_;
+  std::vector<barge::HullHalf> halves_;      ///< of the parts of the hull
   std::vector<MotionDescription> surfaces_;  ///< an empty table: stands still
 };
 

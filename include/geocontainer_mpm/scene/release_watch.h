@@ -9,14 +9,15 @@
 
 namespace geocontainer_mpm::scene {
 
+template <int Dim>
 class ReleaseWatch {
 public:
   explicit ReleaseWatch(const SceneDescription& scene);
 
   /// Looks at the model after a step, or while it rests; everything, hull included, has been still for `still_for_s`.
-  void observe(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s);
+  void observe(const Model<Dim>& model, double time_s, const barge::OpeningAngles& opening, double still_for_s);
 
-  StatusFrame status(const Model& model) const;
+  StatusFrame status(const Model<Dim>& model) const;
 
 private:
   /// What is known of one sheet.
@@ -33,12 +34,12 @@ private:
     std::vector<TensionEpisode> episodes;
   };
 
-  void open_episodes(const Model& model, double time_s);
-  void measure(const ModelSheet& what, double time_s, Watched& watched);
-  void judge(const ModelSheet& sheet, double time_s, const barge::OpeningAngles& opening, double still_for_s,
+  void open_episodes(const Model<Dim>& model, double time_s);
+  void measure(const ModelSheet<Dim>& what, double time_s, Watched& watched);
+  void judge(const ModelSheet<Dim>& sheet, double time_s, const barge::OpeningAngles& opening, double still_for_s,
              Watched& watched) const;
   Outcome outcome() const;
-  ContainerStatus container(const Model& model, std::size_t sheet) const;
+  ContainerStatus container(const Model<Dim>& model, std::size_t sheet) const;
 
   std::optional<barge::SplitHull> hull_;
   double hung_up_after_s_;
@@ -49,7 +50,8 @@ private:
 };
 
 /// Fills the bodies, sheets and boundaries (in their reference pose) of a frame.
-void fill_frame(const Model& model, const SceneDescription& scene, const std::vector<Vec2>& boundary_force,
+template <int Dim>
+void fill_frame(const Model<Dim>& model, const SceneDescription& scene, const std::vector<Vec<Dim>>& boundary_force,
                 Frame& frame);
 
 }  // namespace geocontainer_mpm::scene

@@ -21,6 +21,13 @@ struct Sampling {
 /// hold the wanted area.
 std::vector<Vec2> outline(const ShapeDescription& shape, const std::optional<HullDescription>& hull, double resolution);
 
+/// The port half of the closed hopper up to where its wall is highest: what an end bulkhead closes. Closed polygon, m.
+std::vector<Vec2> half_of_hopper(const HullDescription& hull);
+
+/// Where a counter-clockwise polygon that is its own mirror image lies at y >= 0: an open line from its lowest point on
+/// the plane of symmetry to its highest.
+std::vector<Vec2> port_arc(const std::vector<Vec2>& polygon);
+
 /// Signed area of a closed polygon, counter-clockwise positive, m^2.
 double polygon_area(const std::vector<Vec2>& polygon);
 
@@ -33,7 +40,8 @@ std::vector<std::vector<Vec2>> boundary_lines(const ShapeDescription& shape, con
 Sampling sample(const ShapeDescription& shape, const std::vector<Vec2>& outline, double spacing);
 
 /// Moves every point by up to `size` m in each direction, at random and the same on every machine.
-void jitter(double size, std::vector<Vec2>& points);
+template <int Dim>
+void jitter(double size, std::vector<Vec<Dim>>& points);
 
 /// Path of a sheet: around its body, along its line or its circle; with the cloth of its wrinkles.
 geotextile::SheetLayout sheet_layout(const GeotextileDescription& sheet, const SceneDescription& scene);
