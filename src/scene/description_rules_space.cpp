@@ -90,9 +90,8 @@ void check_left_out(const SceneDescription& scene)
 bool mirrored(const std::vector<Vec2>& outline, double tolerance)
 {
   return std::all_of(outline.begin(), outline.end(), [&](const Vec2& corner) {
-    return std::any_of(outline.begin(), outline.end(), [&](const Vec2& other) {
-      return (Vec2(-corner[0], corner[1]) - other).norm() <= tolerance;
-    });
+    return std::any_of(outline.begin(), outline.end(),
+                       [&](const Vec2& other) { return (Vec2(-corner[0], corner[1]) - other).norm() <= tolerance; });
   });
 }
 
@@ -162,9 +161,9 @@ void check_space(const SceneDescription& scene)
                        number_text(cells)));
   const Vec2 section = (scene.grid.upper_m - scene.grid.lower_m) / cell;
   if (cells * section[0] * section[1] > max_cells)
-    refuse("grid.cell_size_m", number_text(cell),
-           fmt::format("gives {:.3g} cells; a grid may have at most {:.0e}", cells * section[0] * section[1],
-                       max_cells));
+    refuse(
+        "grid.cell_size_m", number_text(cell),
+        fmt::format("gives {:.3g} cells; a grid may have at most {:.0e}", cells * section[0] * section[1], max_cells));
   for (const auto& [name, body] : scene.bodies) {
     const std::string key = "bodies." + name + ".along_m";
     if (!body.along_m)

@@ -1,16 +1,13 @@
 /// From a description to bodies, sheets, boundaries and loads.
 
 #include <algorithm>
-#include <cmath>
-#include <type_traits>
-
-#include <fmt/format.h>
 
 #include "geocontainer_mpm/barge/split_hull.h"
 #include "geocontainer_mpm/error.h"
 #include "geocontainer_mpm/scene/model.h"
-#include "geocontainer_mpm/scene/prescribed_motion.h"
 #include "geocontainer_mpm/scene/shapes.h"
+#include "model_particles.h"
+#include "model_surfaces.h"
 
 namespace geocontainer_mpm::scene {
 namespace {
@@ -25,248 +22,6 @@ std::shared_ptr<mpm::ThreadTeam> make_team(int threads)
   if (threads < 1)
     throw InputError("", "threads", std::to_string(threads), "at least 1");
   return std::make_shared<mpm::ThreadTeam>(threads);
-}
-
-/// Vertical stress from the weight of what lies above, horizontal stress by K0 (both horizontal directions).
-template <int Dim>
-void set_k0_stress(const BodyDescription& description, double density, const std::vector<Vec2>& shape, double gravity_z,
-                   const std::optional<Water>& water, mpm::Particles<Dim>& particles)
-{
-  constexpr std::size_t vertical_slot = z_axis<Dim>, out_of_plane = 3;  // of plane strain
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x = in_section<Dim>(particles.position_of(p));
-    const double top = top_at(shape, x[0]), depth = std::max(0.0, top - x[1]);
-    // gravity_z < 0: compression
-    const double vertical = water ? gravity_z * water->overburden(density, x[1], top) : density * gravity_z * depth;
-    for (std::size_t d = 0; d < Dim; ++d)
-      particles.stress[d][p] = d == vertical_slot ? vertical : description.k0 * vertical;
-    if constexpr (Dim == 2)
-      particles.stress[out_of_plane][p] = description.k0 * vertical;
-  }
-}
-
-/// A weakly compressible fluid at rest, d p / d depth = rho g with rho = rho0 (1 + p / K): more mass in the same
-/// volume, so that the law, which knows the volume at zero pressure, finds the pressure: under water that beyond the
-/// water's own.
-template <int Dim>
-void set_hydrostatic(const material::Parameters& material, const std::vector<Vec2>& shape, double gravity_z,
-                     const std::optional<Water>& water, mpm::Particles<Dim>& particles)
-{
-  const double rho = material.density_kg_per_m3, bulk = material.bulk_modulus_pa;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x = in_section<Dim>(particles.position_of(p));
-    const double top = top_at(shape, x[0]), depth = std::max(0.0, top - x[1]);
-    const double pressure = water ? -gravity_z * water->overburden(rho, x[1], top) : -rho * gravity_z * depth;
-    const double compression = std::exp(pressure / bulk);  // rho / rho0
-    particles.initial_volume[p] = compression * particles.volume[p];
-    particles.mass[p] = particles.weight_mass[p] = rho * particles.initial_volume[p];
-  }
-}
-
-/// A velocity, a spin from y towards z about the middle of mass, and a sine over space, all in the section.
-template <int Dim>
-void set_velocity(const Vec2& velocity, double spin, const std::optional<VelocityWave>& wave,
-                  mpm::Particles<Dim>& particles)
-{
-  Vec2 middle = Vec2::Zero();
-  double mass = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    middle += particles.mass[p] * in_section<Dim>(particles.position_of(p));
-    mass += particles.mass[p];
-  }
-  middle /= mass;
-  constexpr std::size_t y = y_axis<Dim>, z = z_axis<Dim>;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x = in_section<Dim>(particles.position_of(p));
-    Vec2 v = velocity + spin * Vec2(middle[1] - x[1], x[0] - middle[0]);
-    if (wave)
-      v += wave->amplitude_m_per_s * std::sin(wave->wave_number_rad_per_m.dot(x) + wave->phase_rad);
-    particles.velocity[y][p] = v[0];
-    particles.velocity[z][p] = v[1];
-    if (!wave && spin != 0.0) {
-      particles.affine[y * Dim + z][p] = -spin;
-      particles.affine[z * Dim + y][p] = spin;
-    }
-  }
-}
-
-/// The particles of a body: of its section, in space row behind row along it, of what is computed of it.
-template <int Dim>
-struct Places {
-  std::vector<Vec<Dim>> points;  ///< m
-  std::vector<double> volumes;
-  std::optional<Vec<Dim>> tile;  ///< as Sampling::tile
-};
-
-Places<2> places(const Sampling& section, const BodyDescription&, Symmetry, double, std::integral_constant<int, 2>)
-{
-  return { section.points, section.volumes, section.tile };
-}
-
-Places<3> places(const Sampling& section, const BodyDescription& body, Symmetry symmetry, double spacing,
-                 std::integral_constant<int, 3>)
-{
-  Places<3> result;
-  const double from = (*body.along_m)[0], length = (*body.along_m)[1] - from;
-  const int rows = std::max(1, static_cast<int>(std::lround(length / spacing)));
-  const double step = length / rows;
-  for (int k = 0; k < rows; ++k) {
-    const double x = from + (k + 0.5) * step;
-    for (std::size_t i = 0; i < section.points.size(); ++i) {
-      const Vec2& at = section.points[i];
-      if ((symmetry != Symmetry::none && at[0] < 0.0) || (symmetry == Symmetry::quarter && x < 0.0))
-        continue;
-      result.points.emplace_back(x, at[0], at[1]);
-      result.volumes.push_back(section.volumes[i] * step);
-    }
-  }
-  return result;
-}
-
-template <int Dim>
-void place(const Places<Dim>& places, double density, mpm::Particles<Dim>& particles)
-{
-  particles.resize(places.points.size());
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    for (std::size_t d = 0; d < Dim; ++d)
-      particles.position[d][p] = places.points[p][static_cast<Eigen::Index>(d)];
-    particles.volume[p] = particles.initial_volume[p] = places.volumes[p];
-    particles.mass[p] = particles.weight_mass[p] = density * places.volumes[p];
-  }
-}
-
-/// Side of a square, or cube, of the particles' mean volume, m.
-template <int Dim>
-double mean_width(const mpm::Particles<Dim>& particles)
-{
-  double volume = 0.0;
-  for (const double v : particles.initial_volume)
-    volume += v;
-  const double mean = volume / static_cast<double>(particles.size());
-  return Dim == 2 ? std::sqrt(mean) : std::cbrt(mean);
-}
-
-void start_on_solution(const Manufactured& solution, mpm::Particles<2>& particles)
-{
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 velocity = solution.velocity(Vec2(particles.position[0][p], particles.position[1][p]), 0.0);
-    particles.velocity[0][p] = velocity[0];
-    particles.velocity[1][p] = velocity[1];
-  }
-}
-
-/// The segment whose middle is nearest to a place.
-std::size_t nearest_segment(const geotextile::Sheet& sheet, const Vec2& at)
-{
-  const auto distance = [&](std::size_t i) {
-    return (0.5 * (sheet.node(i) + sheet.node(sheet.end_of(i))) - at).norm();
-  };
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < sheet.segments(); ++i)
-    if (distance(i) < distance(nearest))
-      nearest = i;
-  return nearest;
-}
-
-/// The seams where they are in the sheet as it is laid.
-geotextile::Strength strength_of(const GeotextileDescription& description, const geotextile::Sheet& sheet)
-{
-  std::vector<geotextile::Seam> seams;
-  for (const auto& [name, seam] : description.seams) {
-    const std::size_t n = sheet.segments();
-    const std::size_t place = seam.along
-                                  ? std::min(n - 1, static_cast<std::size_t>(*seam.along * static_cast<double>(n)))
-                                  : nearest_segment(sheet, *seam.at_m);
-    seams.push_back({ name, place, seam.efficiency.value_or(description.seam_efficiency) });
-  }
-  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
-}
-
-/// A geotextile as it is described, not yet in a field.
-ModelSheet<2> lay_sheet(const std::string& name, const GeotextileDescription& description,
-                        const SceneDescription& scene, std::integral_constant<int, 2>)
-{
-  geotextile::SheetParameters parameters;
-  parameters.stiffness = description.stiffness_n_per_m;
-  parameters.mass = description.mass_kg_per_m2;
-  parameters.computational_mass = description.computational_mass_kg_per_m2;
-  parameters.segment_length = description.segment_length_m;
-  parameters.gauge_length = description.gauge_length_m;
-  parameters.formulation = description.formulation;
-  parameters.force_strain = description.force_strain_table;
-  parameters.rupture_strain = description.rupture_strain;
-  const geotextile::SheetLayout layout = sheet_layout(description, scene);
-  if (description.wrinkles && layout.fullness.empty())
-    throw InputError(scene.source, "geotextiles." + name + ".wrinkles.region", "",
-                     "must hold part of the path along which the sheet is laid");
-  parameters.unstretched_length = unstretched_length(description, layout);
-  if (description.circumference_m && description.wrinkles &&
-      *description.circumference_m < layout.cloth_length() * (1.0 - 1e-9))
-    throw InputError(
-        scene.source, "geotextiles." + name + ".circumference_m", fmt::format("{}", *description.circumference_m),
-        fmt::format("must be at least {:.6g} m, what the path with its wrinkles takes", layout.cloth_length()));
-  geotextile::Sheet laid(layout, parameters);
-  const geotextile::Strength strength = strength_of(description, laid);
-  return { name, 0, std::move(laid), strength, strength };
-}
-
-/// The surface of a body in space: what of it is not on a plane of symmetry.
-ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& description,
-                        const SceneDescription& scene, std::integral_constant<int, 3>)
-{
-  geotextile::SheetLayout section = sheet_layout(description, scene);
-  geotextile::Fullness fullness;
-  fullness.around = unstretched_length(description, section) / section.cloth_length();
-  if (scene.symmetry() != Symmetry::none)
-    section = { port_arc(section.points), false, {} };
-  const Vec2& along = *scene.bodies.at(description.encloses).along_m;
-  const bool quarter = scene.symmetry() == Symmetry::quarter;
-  const Vec2& space = scene.space->along_m;
-  // An end that lies in the end of the space is held by its roller, and open.
-  const geotextile::ClosedEnds closed{ !quarter && along[0] > space[0], along[1] < space[1] };
-  geotextile::MembraneParameters parameters;
-  parameters.warp.stiffness = description.stiffness_n_per_m;
-  parameters.warp.force_strain = description.force_strain_table;
-  parameters.weft.stiffness = description.stiffness_weft_n_per_m.value_or(description.stiffness_n_per_m);
-  parameters.weft.force_strain = description.force_strain_weft_table.empty() && !description.stiffness_weft_n_per_m
-                                     ? description.force_strain_table
-                                     : description.force_strain_weft_table;
-  parameters.mass = description.mass_kg_per_m2;
-  parameters.computational_mass = description.computational_mass_kg_per_m2;
-  parameters.gauge_length = description.gauge_length_m;
-  parameters.rupture_strain = description.rupture_strain;
-  geotextile::Membrane laid(geotextile::wrap(section, { quarter ? 0.0 : along[0], along[1] }, closed,
-                                             description.segment_length_m, fullness),
-                            parameters);
-  const double weft = description.strength_weft_n_per_m.value_or(description.strength_n_per_m);
-  return { name, 0, std::move(laid), geotextile::Strength(description.strength_n_per_m, description.seam_efficiency),
-           geotextile::Strength(weft, description.seam_efficiency) };
-}
-
-/// A rigid surface drawn in the section: in space through all of it.
-contact::BoundaryBody<2> extruded(const std::string& name, contact::Surface section, double friction, double spacing,
-                                  const SceneDescription&, std::integral_constant<int, 2>)
-{
-  return { name, std::move(section), friction, spacing };
-}
-
-contact::BoundaryBody<3> extruded(const std::string& name, contact::Surface section, double friction, double spacing,
-                                  const SceneDescription& scene, std::integral_constant<int, 3>)
-{
-  const double from = scene.symmetry() == Symmetry::quarter ? 0.0 : scene.space->along_m[0];
-  return { name, std::move(section), contact::Along{ from, scene.space->along_m[1] }, friction, spacing };
-}
-
-/// Half of an end of the hopper.
-contact::BoundaryBody<3> bulkhead(const HullPart& part, double spacing, const HullDescription& hull)
-{
-  std::vector<Vec2> half = half_of_hopper(hull);
-  if (part.half == barge::HullHalf::starboard)
-    for (Vec2& point : half)
-      point[0] = -point[0];
-  const bool aft = part.what == HullPart::What::aft_bulkhead;
-  return contact::BoundaryBody<3>::plate(part.name, contact::Surface(std::move(half), true),
-                                         (*hull.along_m)[aft ? 0 : 1], aft ? 1.0 : -1.0, hull.friction, spacing);
 }
 
 /// A corner of the grid: of the part of the scene that is computed.
@@ -363,8 +118,7 @@ void Model<Dim>::build_bodies(const SceneDescription& scene)
     const material::Parameters& material = scene.materials.at(description.material);
     const std::vector<Vec2> shape = outline(description.shape, scene.hull, scene.grid.cell_size_m);
     const double spacing = scene.grid.cell_size_m / description.particles_per_cell;
-    Places<Dim> where = places(sample(description.shape, shape, spacing), description, scene.symmetry(), spacing,
-                               std::integral_constant<int, Dim>{});
+    Places<Dim> where = places<Dim>(sample(description.shape, shape, spacing), description, scene.symmetry(), spacing);
     if (description.jitter > 0.0)
       jitter<Dim>(description.jitter * spacing, where.points);
     if (where.points.empty())
@@ -416,7 +170,7 @@ template <int Dim>
 void Model<Dim>::build_sheets(const SceneDescription& scene)
 {
   for (const auto& [name, description] : scene.geotextiles) {
-    ModelSheet sheet = lay_sheet(name, description, scene, std::integral_constant<int, Dim>{});
+    ModelSheet sheet = lay_sheet<Dim>(name, description, scene);
     if (description.encloses.empty()) {
       sheet.field = field_index(description.velocity_field);
       set_velocity<Dim>(description.initial_velocity_m_per_s, 0.0, description.initial_velocity_wave,
@@ -457,8 +211,8 @@ void Model<Dim>::build_boundaries(const SceneDescription& scene)
         "hull");
     for (const HullPart& part : hull_parts(scene)) {
       if (part.what == HullPart::What::wall)
-        boundaries_.push_back(extruded(part.name, contact::Surface(hull.closed_section_m(part.half)),
-                                       scene.hull->friction, spacing, scene, std::integral_constant<int, Dim>{}));
+        boundaries_.push_back(rigid_surface<Dim>(part.name, contact::Surface(hull.closed_section_m(part.half)),
+                                                 scene.hull->friction, spacing, scene));
       else if constexpr (Dim == 3)
         boundaries_.push_back(bulkhead(part, spacing, *scene.hull));
     }
@@ -467,8 +221,8 @@ void Model<Dim>::build_boundaries(const SceneDescription& scene)
     std::vector<Vec2> line = surface.line_m;
     if (surface.corner_radius_m > 0.0)
       line = barge::round_corners(line, surface.corner_radius_m, arc_turn_rad, "surfaces." + name + ".corner_radius_m");
-    boundaries_.push_back(extruded(name, contact::Surface(std::move(line), surface.closed), surface.friction, spacing,
-                                   scene, std::integral_constant<int, Dim>{}));
+    boundaries_.push_back(
+        rigid_surface<Dim>(name, contact::Surface(std::move(line), surface.closed), surface.friction, spacing, scene));
   }
   now_.boundary_totals.resize(boundaries_.size());
 }

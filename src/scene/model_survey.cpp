@@ -44,7 +44,8 @@ struct Look {
 };
 
 template <int Dim>
-Look<Dim> look_at(const mpm::Particles<Dim>& particles, bool has_volume, const Vec<Dim>& grid_lower, const Vec<Dim>& grid_upper)
+Look<Dim> look_at(const mpm::Particles<Dim>& particles, bool has_volume, const Vec<Dim>& grid_lower,
+                  const Vec<Dim>& grid_upper)
 {
   Look<Dim> look;
   double doubt = 0.0;  // stays zero, unless something is not finite: then NaN

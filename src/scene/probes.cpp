@@ -328,14 +328,14 @@ void Probes<Dim>::sample_geotextile(const Target& target, const Model<Dim>& mode
 
 /// Force and moment of the material on the surface, mean since the last sample.
 template <int Dim>
-void Probes<Dim>::sample_surface(Target& target, const Model<Dim>& model, double angle_rad, double time_s, Row& row) const
+void Probes<Dim>::sample_surface(Target& target, const Model<Dim>& model, double angle_rad, double time_s,
+                                 Row& row) const
 {
   const BoundaryTotal<Dim>& total = model.state().boundary_totals[target.index];
   const double length = time_s - target.last_s, per_time = length > 0.0 ? -1.0 / length : 0.0;
   row.put("force", Dim == 2 ? "n_per_m" : "n", Dim == 2 ? "N/m" : "N",
           per_time * (total.impulse - target.last.impulse));
-  row.put(Dim == 2 ? "moment_n" : "moment_n_m", Dim == 2 ? "N" : "N m",
-          per_time * (total.moment - target.last.moment));
+  row.put(Dim == 2 ? "moment_n" : "moment_n_m", Dim == 2 ? "N" : "N m", per_time * (total.moment - target.last.moment));
   row.put("angle_rad", "rad", angle_rad);
   row.put(Dim == 2 ? "work_j_per_m" : "work_j", Dim == 2 ? "J/m" : "J", total.work);
   target.last = total;

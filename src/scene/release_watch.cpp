@@ -42,6 +42,45 @@ struct Extent {
   }
 };
 
+/// Where a sheet is tensest, by its gauge, and how much of its strengths is used anywhere.
+struct Tense {
+  double tension;     ///< N/m
+  std::size_t piece;  ///< segment or triangle
+  geotextile::Utilisation used;
+};
+
+Tense most_tense(const std::vector<double>& gauge, const geotextile::Strength& strength)
+{
+  const auto largest = std::max_element(gauge.begin(), gauge.end());
+  return { *largest, static_cast<std::size_t>(largest - gauge.begin()), strength.utilisation(gauge) };
+}
+
+Tense most_tense(const ModelSheet<2>& sheet, std::array<std::vector<double>, 1>& gauge)
+{
+  sheet.sheet.gauge_tension(gauge[0]);
+  return most_tense(gauge[0], sheet.strength);
+}
+
+Tense most_tense(const ModelSheet<3>& sheet, std::array<std::vector<double>, 2>& gauge)
+{
+  sheet.sheet.gauge_tension(gauge[0], gauge[1]);
+  const Tense warp = most_tense(gauge[0], sheet.strength), weft = most_tense(gauge[1], sheet.strength_weft);
+  Tense most = warp.tension >= weft.tension ? warp : weft;
+  most.used = { std::max(warp.used.sheet, weft.used.sheet), std::max(warp.used.seam, weft.used.seam) };
+  return most;
+}
+
+Vec3 middle_of(const geotextile::Sheet& sheet, std::size_t segment)
+{
+  return in_space<3>(Vec2(0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment)))));
+}
+
+Vec3 middle_of(const geotextile::Membrane& sheet, std::size_t triangle)
+{
+  const auto& [a, b, c] = sheet.triangles()[triangle];
+  return (sheet.node(a) + sheet.node(b) + sheet.node(c)) / 3.0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -56,7 +95,8 @@ ReleaseWatch<Dim>::ReleaseWatch(const SceneDescription& scene)
 }
 
 template <int Dim>
-void ReleaseWatch<Dim>::observe(const Model<Dim>& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
+void ReleaseWatch<Dim>::observe(const Model<Dim>& model, double time_s, const barge::OpeningAngles& opening,
+                                double still_for_s)
 {
   if (initial_volume_ < 0.0) {
     initial_volume_ = soil_volume(model);
@@ -90,33 +130,30 @@ void ReleaseWatch<Dim>::open_episodes(const Model<Dim>& model, double time_s)
 template <int Dim>
 void ReleaseWatch<Dim>::measure(const ModelSheet<Dim>& what, double time_s, Watched& watched)
 {
-  const geotextile::Sheet& sheet = what.sheet;
-  sheet.gauge_tension(gauge_);
-  const auto largest = std::max_element(gauge_.begin(), gauge_.end());
-  watched.current = std::max(0.0, *largest);
+  const SheetOf<Dim>& sheet = what.sheet;
+  const Tense now = most_tense(what, gauge_);
+  watched.current = std::max(0.0, now.tension);
   watched.elongation = std::max(watched.elongation, sheet.largest_strain());
-  const geotextile::Utilisation used = what.strength.utilisation(gauge_);
-  watched.used = { std::max(watched.used.sheet, used.sheet), std::max(watched.used.seam, used.seam) };
+  watched.used = { std::max(watched.used.sheet, now.used.sheet), std::max(watched.used.seam, now.used.seam) };
   watched.ruptures = sheet.ruptures();
   if (watched.rupture_time_s < 0.0 && watched.ruptures > 0) {
     watched.rupture_time_s = time_s;
-    watched.rupture_position = sheet.rupture_place();
+    watched.rupture_position = in_space<3>(sheet.rupture_place());
   }
-  if (!watched.episodes.empty() && *largest > watched.episodes.back().peak_n_per_m) {
-    watched.episodes.back().peak_n_per_m = *largest;
+  if (!watched.episodes.empty() && now.tension > watched.episodes.back().peak_n_per_m) {
+    watched.episodes.back().peak_n_per_m = now.tension;
     watched.episodes.back().peak_time_s = time_s;
   }
-  if (*largest > watched.peak) {
-    const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
-    watched.peak = *largest;
+  if (now.tension > watched.peak) {
+    watched.peak = now.tension;
     watched.peak_time_s = time_s;
-    watched.peak_position = 0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment)));
+    watched.peak_position = middle_of(sheet, now.piece);
   }
 }
 
 template <int Dim>
 void ReleaseWatch<Dim>::judge(const ModelSheet<Dim>& sheet, double time_s, const barge::OpeningAngles& opening,
-                         double still_for_s, Watched& watched) const
+                              double still_for_s, Watched& watched) const
 {
   if (sheet.held || watched.outcome == Outcome::released ||
       (watched.outcome == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))

@@ -30,7 +30,7 @@ struct Run {
     double resting_time_s = 0.0;
     double interval_start_s = 0.0;
     std::vector<BoundaryTotal<Dim>> interval_start;  ///< per boundary body
-    std::vector<Vec<Dim>> mean_force;               ///< over the last output interval, N/m; in space N
+    std::vector<Vec<Dim>> mean_force;                ///< over the last output interval, N/m; in space N
     std::uint64_t retries = 0;
     int halvings = 0;         ///< steps are shortened by this power of two
     double doubtful_s = 0.0;  ///< where a step went wrong last

@@ -57,8 +57,8 @@ struct SupportSums {
   bool acted = false;
 };
 
-/// Sets the velocity of the grid's nodes within the support's region, in space all along. `kick`: time over which the forces that stand in
-/// the grid have acted, s.
+/// Sets the velocity of the grid's nodes within the support's region, in space all along. `kick`: time over which the
+/// forces that stand in the grid have acted, s.
 template <int Dim>
 SupportSums apply_support(const SupportDescription& support, double time_s, double kick, mpm::Grid<Dim>& grid);
 

@@ -133,7 +133,7 @@ struct BodyDescription {
   ShapeDescription shape;
   std::optional<Vec2> along_m;  ///< from and to, m: in space the shape reaches so far along x, with flat ends
   int particles_per_cell = 2;   ///< in each direction, 1 to 4
-  double jitter = 0.0;         ///< furthest random offset of a particle, over the spacing, [0, 0.5]
+  double jitter = 0.0;          ///< furthest random offset of a particle, over the spacing, [0, 0.5]
   /// Bodies that name the same field move in one velocity field and stick together where they meet. Fields touch by
   /// `contacts`. Empty: the common field.
   std::string velocity_field;
@@ -241,12 +241,12 @@ struct GeotextileDescription {
   std::optional<double> stiffness_weft_n_per_m;                     ///< > 0
   std::optional<double> strength_weft_n_per_m;                      ///< > 0
   std::vector<geotextile::ForceStrainRow> force_strain_weft_table;  ///< empty: linear
-  double mass_kg_per_m2 = 0.0;                        ///< true mass: what gravity pulls, > 0
-  double computational_mass_kg_per_m2 = 0.0;          ///< inertia used (mass scaling), >= true mass
-  double strength_n_per_m = 0.0;                      ///< tensile strength of the sheet (warp), > 0
-  double seam_efficiency = 0.85;                      ///< strength of a seam over the sheet's, (0, 1]
-  double segment_length_m = 0.0;                      ///< wanted length of a membrane segment, > 0; about a cell
-  double gauge_length_m = 0.5;  ///< reported tension is the mean over this length, >= segment length
+  double mass_kg_per_m2 = 0.0;                                      ///< true mass: what gravity pulls, > 0
+  double computational_mass_kg_per_m2 = 0.0;                        ///< inertia used (mass scaling), >= true mass
+  double strength_n_per_m = 0.0;                                    ///< tensile strength of the sheet (warp), > 0
+  double seam_efficiency = 0.85;                                    ///< strength of a seam over the sheet's, (0, 1]
+  double segment_length_m = 0.0;  ///< wanted length of a membrane segment, > 0; about a cell
+  double gauge_length_m = 0.5;    ///< reported tension is the mean over this length, >= segment length
   geotextile::Formulation formulation = geotextile::Formulation::segments;
   std::vector<geotextile::ForceStrainRow> force_strain_table;  ///< from (0, 0), ascending; empty: linear, J
   std::optional<double> rupture_strain;               ///< from which on a piece carries nothing, > 0; not given: never
@@ -268,8 +268,8 @@ struct HullDescription {
   /// Closed section of the port half, y >= 0: from the bottom inwards, round the lip and up the inner wall to the deck,
   /// so that the free side is on the left walking along it. Starboard is its mirror image.
   std::vector<Vec2> port_section_m;
-  double lip_radius_m = 0.0;              ///< corners of the section are rounded with this radius, m, >= 0
-  double friction = 0.0;                  ///< Coulomb coefficient geotextile on hull, >= 0
+  double lip_radius_m = 0.0;  ///< corners of the section are rounded with this radius, m, >= 0
+  double friction = 0.0;      ///< Coulomb coefficient geotextile on hull, >= 0
   /// From and to, m: in space the hopper between its end bulkheads, half of which moves with each half of the hull. Not
   /// given: no bulkheads. The walls reach through the whole space.
   std::optional<Vec2> along_m;

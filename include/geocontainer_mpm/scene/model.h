@@ -43,8 +43,8 @@ struct Body {
   bool held = false;      ///< it has not started yet: stands where it is and takes no part
   std::shared_ptr<const Manufactured> manufactured;
   std::shared_ptr<const std::vector<Vec<Dim>>> start;  ///< positions at the start by id, m
-  double density = 0.0;                            ///< of the material, kg/m^3
-  double particle_height = 0.0;                    ///< over which a particle enters the water, m; without water 0
+  double density = 0.0;                                ///< of the material, kg/m^3
+  double particle_height = 0.0;                        ///< over which a particle enters the water, m; without water 0
 
   /// Without water that moves with it, kg/m.
   double own_mass(std::size_t p) const { return density * particles.initial_volume[p]; }
@@ -62,8 +62,8 @@ struct ModelSheet {
   std::string name;
   std::size_t field = 0;
   SheetOf<Dim> sheet;
-  geotextile::Strength strength;       ///< across the barge (warp)
-  geotextile::Strength strength_weft;  ///< along it; in space
+  geotextile::Strength strength;                     ///< across the barge (warp)
+  geotextile::Strength strength_weft;                ///< along it; in space
   std::optional<std::size_t> inside = std::nullopt;  ///< the body that it encloses
   bool held = false;                                 ///< as that body
 };
@@ -74,26 +74,26 @@ template <int Dim>
 struct Tracer {
   std::size_t body;
   std::uint32_t owner;  ///< id of the particle
-  Vec<Dim> offset;          ///< from it; follows its deformation, m
-  Vec<Dim> position;        ///< m
-  Vec<Dim> velocity;        ///< of the last step, by its way: with FLIP particles have another, m/s
+  Vec<Dim> offset;      ///< from it; follows its deformation, m
+  Vec<Dim> position;    ///< m
+  Vec<Dim> velocity;    ///< of the last step, by its way: with FLIP particles have another, m/s
 };
 
 /// What a boundary body has done to the material since the start, per unit width.
 template <int Dim>
 struct BoundaryTotal {
   Vec<Dim> impulse = Vec<Dim>::Zero();  ///< N s / m
-  double moment = 0.0;          ///< about its pivot, N s
-  double work = 0.0;            ///< J/m
+  double moment = 0.0;                  ///< about its pivot, N s
+  double work = 0.0;                    ///< J/m
 };
 
 /// What the water has done since the start, per unit width.
 template <int Dim>
 struct WaterState {
-  Vec<Dim> drag = Vec<Dim>::Zero();                           ///< of the present step, N/m
-  Vec<Dim> drag_impulse = Vec<Dim>::Zero();                   ///< N s / m
+  Vec<Dim> drag = Vec<Dim>::Zero();                     ///< of the present step, N/m
+  Vec<Dim> drag_impulse = Vec<Dim>::Zero();             ///< N s / m
   std::vector<std::array<mpm::Column, Dim>> on_sheets;  ///< what of it sheets take, by node; empty: none, N/m
-  double fastest_fall = 0.0;                          ///< downward mean velocity of the submerged part of a body, m/s
+  double fastest_fall = 0.0;                            ///< downward mean velocity of the submerged part of a body, m/s
 };
 
 /// Energies that changed hands since the ledger was opened, per unit width, J/m, and what momentum did.
@@ -123,9 +123,9 @@ template <int Dim>
 struct ModelState {
   std::vector<Body<Dim>> bodies;
   std::vector<ModelSheet<Dim>> sheets;
-  std::vector<Traction> tractions;                   ///< in plane strain
+  std::vector<Traction> tractions;  ///< in plane strain
   std::vector<Tracer<Dim>> tracers;
-  std::vector<contact::ContactSolver<Dim>> contact;       ///< per field
+  std::vector<contact::ContactSolver<Dim>> contact;  ///< per field
   std::vector<contact::SheetContact> sheet_contact;  ///< in the order of the model's pairs
   std::vector<BoundaryTotal<Dim>> boundary_totals;
   WaterState<Dim> water;
@@ -133,7 +133,7 @@ struct ModelState {
   SkippedCounts skipped;
   StepStatus health;
   Vec<Dim> gravity = Vec<Dim>::Zero();  ///< of the last step, m/s^2
-  double kinetic = 0.0;         ///< on the grids after the last step, J/m
+  double kinetic = 0.0;                 ///< on the grids after the last step, J/m
   bool kinetic_known = false;
   double last_dt = 0.0;             ///< s
   double fastest = 0.0;             ///< m/s
@@ -182,7 +182,7 @@ public:
   std::size_t add_tracer(std::size_t body, const Vec<Dim>& at);
 
   double rms_velocity() const;     ///< by mass, of the last step, m/s
-  Vec<Dim> centroid() const;           ///< of the bodies (of the sheets where there are none), by mass, m
+  Vec<Dim> centroid() const;       ///< of the bodies (of the sheets where there are none), by mass, m
   double soil_mass() const;        ///< without water that moves with it, kg/m
   double fundamental_frequency();  ///< rough lowest frequency of the bodies, rad/s: for settling
   EnergyFrame energy() const;
@@ -198,15 +198,17 @@ public:
 private:
   /// One velocity field: what moves on one grid.
   struct Field {
-    Field(std::string field_name, mpm::Grid<Dim> field_grid) : name(std::move(field_name)), grid(std::move(field_grid)) {}
+    Field(std::string field_name, mpm::Grid<Dim> field_grid) : name(std::move(field_name)), grid(std::move(field_grid))
+    {
+    }
 
     std::string name;
     mpm::Grid<Dim> grid;
     mpm::GridUpdate<Dim> update;
     mpm::FrequencyBound<Dim> bound;
     Vec<Dim> extent_lower = Vec<Dim>::Zero(), extent_upper = Vec<Dim>::Zero();  ///< of its particles, m
-    std::vector<contact::ContactPoints<Dim>> all_points;                 ///< scratch of step()
-    std::vector<contact::ContactPoints<Dim>> points;                     ///< scratch of step()
+    std::vector<contact::ContactPoints<Dim>> all_points;                        ///< scratch of step()
+    std::vector<contact::ContactPoints<Dim>> points;                            ///< scratch of step()
     contact::ContactImpulses<Dim> impulses;
     std::vector<contact::Anchor<Dim>> anchors;
   };
@@ -229,12 +231,12 @@ private:
     std::size_t body;
     std::optional<std::size_t> sheet;
     mpm::Particles<Dim> body_start, sheet_start;  ///< as built
-    double weight_mass, inertia;                ///< kg/m
+    double weight_mass, inertia;                  ///< kg/m
   };
   /// An end of an open sheet that is held, or led.
   struct HeldEnd {
     std::size_t sheet, node;
-    Vec<Dim> place;           ///< at the start, m
+    Vec<Dim> place;       ///< at the start, m
     TimeTable<2> motion;  ///< displacement over time, m
   };
 
@@ -330,11 +332,11 @@ private:
   ModelState now_;
   bool on_grid_ = false;
   double stable_dt_ = 0.0;
-  double load_power_before_ = 0.0;  ///< of loads on the velocity before the step, W/m
-  double drag_power_before_ = 0.0;  ///< of drag, W/m
-  double slowed_power_ = 0.0;       ///< of weight on the velocity that water taken up has taken, W/m
-  double power_before_ = 0.0;       ///< of all forces on the motion before the transfer, W/m
-  Vec<Dim> load_sum_ = Vec<Dim>::Zero();    ///< of all loads but gravity, N/m
+  double load_power_before_ = 0.0;        ///< of loads on the velocity before the step, W/m
+  double drag_power_before_ = 0.0;        ///< of drag, W/m
+  double slowed_power_ = 0.0;             ///< of weight on the velocity that water taken up has taken, W/m
+  double power_before_ = 0.0;             ///< of all forces on the motion before the transfer, W/m
+  Vec<Dim> load_sum_ = Vec<Dim>::Zero();  ///< of all loads but gravity, N/m
   StageTimes stages_;
 };
 

@@ -34,7 +34,7 @@ private:
     std::size_t node = 0;     ///< of the sheet's point that is followed
     double turned_rad = 0.0;  ///< rotation of a body at the last sample
     double last_s = 0.0;      ///< time of the last sample
-    BoundaryTotal<Dim> last;       ///< of a surface, then
+    BoundaryTotal<Dim> last;  ///< of a surface, then
   };
   struct Row;  // fills the columns of one sample, see probes.cpp
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Watches a run: what became of the container, and the largest tension so far.
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,11 +26,11 @@ private:
     Outcome outcome = Outcome::none;
     double release_time_s = -1.0;
     double peak = 0.0, peak_time_s = 0.0, current = 0.0, elongation = 0.0;
-    Vec2 peak_position = Vec2::Zero();
+    Vec3 peak_position = Vec3::Zero();
     geotextile::Utilisation used;  ///< largest so far
     std::size_t ruptures = 0;
     double rupture_time_s = -1.0;
-    Vec2 rupture_position = Vec2::Zero();
+    Vec3 rupture_position = Vec3::Zero();
     double initial_volume = 0.0;  ///< of the body inside, m^2
     std::vector<TensionEpisode> episodes;
   };
@@ -46,7 +47,7 @@ private:
   std::vector<Watched> watched_;  ///< in the order of the sheets
   std::vector<bool> held_;        ///< bodies that had not started at the last look
   double initial_volume_ = -1.0;
-  std::vector<double> gauge_;  ///< scratch
+  std::array<std::vector<double>, Dim - 1> gauge_;  ///< scratch
 };
 
 /// Fills the bodies, sheets and boundaries (in their reference pose) of a frame.

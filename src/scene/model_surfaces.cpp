@@ -1,0 +1,130 @@
+#include "model_surfaces.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/scene/shapes.h"
+
+namespace geocontainer_mpm::scene {
+namespace {
+
+/// The segment whose middle is nearest to a place.
+std::size_t nearest_segment(const geotextile::Sheet& sheet, const Vec2& at)
+{
+  const auto distance = [&](std::size_t i) {
+    return (0.5 * (sheet.node(i) + sheet.node(sheet.end_of(i))) - at).norm();
+  };
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < sheet.segments(); ++i)
+    if (distance(i) < distance(nearest))
+      nearest = i;
+  return nearest;
+}
+
+/// The seams where they are in the sheet as it is laid.
+geotextile::Strength strength_of(const GeotextileDescription& description, const geotextile::Sheet& sheet)
+{
+  std::vector<geotextile::Seam> seams;
+  for (const auto& [name, seam] : description.seams) {
+    const std::size_t n = sheet.segments();
+    const std::size_t place = seam.along
+                                  ? std::min(n - 1, static_cast<std::size_t>(*seam.along * static_cast<double>(n)))
+                                  : nearest_segment(sheet, *seam.at_m);
+    seams.push_back({ name, place, seam.efficiency.value_or(description.seam_efficiency) });
+  }
+  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
+}
+
+}  // namespace
+
+template <>
+ModelSheet<2> lay_sheet(const std::string& name, const GeotextileDescription& description,
+                        const SceneDescription& scene)
+{
+  geotextile::SheetParameters parameters;
+  parameters.stiffness = description.stiffness_n_per_m;
+  parameters.mass = description.mass_kg_per_m2;
+  parameters.computational_mass = description.computational_mass_kg_per_m2;
+  parameters.segment_length = description.segment_length_m;
+  parameters.gauge_length = description.gauge_length_m;
+  parameters.formulation = description.formulation;
+  parameters.force_strain = description.force_strain_table;
+  parameters.rupture_strain = description.rupture_strain;
+  const geotextile::SheetLayout layout = sheet_layout(description, scene);
+  if (description.wrinkles && layout.fullness.empty())
+    throw InputError(scene.source, "geotextiles." + name + ".wrinkles.region", "",
+                     "must hold part of the path along which the sheet is laid");
+  parameters.unstretched_length = unstretched_length(description, layout);
+  if (description.circumference_m && description.wrinkles &&
+      *description.circumference_m < layout.cloth_length() * (1.0 - 1e-9))
+    throw InputError(
+        scene.source, "geotextiles." + name + ".circumference_m", fmt::format("{}", *description.circumference_m),
+        fmt::format("must be at least {:.6g} m, what the path with its wrinkles takes", layout.cloth_length()));
+  geotextile::Sheet laid(layout, parameters);
+  const geotextile::Strength strength = strength_of(description, laid);
+  return { name, 0, std::move(laid), strength, strength };
+}
+
+/// What of a body's surface is not on a plane of symmetry.
+template <>
+ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& description,
+                        const SceneDescription& scene)
+{
+  geotextile::SheetLayout section = sheet_layout(description, scene);
+  geotextile::Fullness fullness;
+  fullness.around = unstretched_length(description, section) / section.cloth_length();
+  if (scene.symmetry() != Symmetry::none)
+    section = { port_arc(section.points), false, {} };
+  const Vec2& along = *scene.bodies.at(description.encloses).along_m;
+  const bool quarter = scene.symmetry() == Symmetry::quarter;
+  const Vec2& space = scene.space->along_m;
+  // An end that lies in the end of the space is held by its roller, and open.
+  const geotextile::ClosedEnds closed{ !quarter && along[0] > space[0], along[1] < space[1] };
+  geotextile::MembraneParameters parameters;
+  parameters.warp_stiffness = description.stiffness_n_per_m;
+  parameters.warp_force_strain = description.force_strain_table;
+  parameters.weft_stiffness = description.stiffness_weft_n_per_m.value_or(description.stiffness_n_per_m);
+  parameters.weft_force_strain = description.force_strain_weft_table.empty() && !description.stiffness_weft_n_per_m
+                                     ? description.force_strain_table
+                                     : description.force_strain_weft_table;
+  parameters.mass = description.mass_kg_per_m2;
+  parameters.computational_mass = description.computational_mass_kg_per_m2;
+  parameters.gauge_length = description.gauge_length_m;
+  parameters.rupture_strain = description.rupture_strain;
+  geotextile::Membrane laid(
+      geotextile::wrap(section, { quarter ? 0.0 : along[0], along[1] }, closed, description.segment_length_m, fullness),
+      parameters);
+  const double weft = description.strength_weft_n_per_m.value_or(description.strength_n_per_m);
+  return { name, 0, std::move(laid), geotextile::Strength(description.strength_n_per_m, description.seam_efficiency),
+           geotextile::Strength(weft, description.seam_efficiency) };
+}
+
+template <>
+contact::BoundaryBody<2> rigid_surface(const std::string& name, contact::Surface section, double friction,
+                                       double spacing, const SceneDescription&)
+{
+  return { name, std::move(section), friction, spacing };
+}
+
+template <>
+contact::BoundaryBody<3> rigid_surface(const std::string& name, contact::Surface section, double friction,
+                                       double spacing, const SceneDescription& scene)
+{
+  const double from = scene.symmetry() == Symmetry::quarter ? 0.0 : scene.space->along_m[0];
+  return { name, std::move(section), contact::Along{ from, scene.space->along_m[1] }, friction, spacing };
+}
+
+contact::BoundaryBody<3> bulkhead(const HullPart& part, double spacing, const HullDescription& hull)
+{
+  std::vector<Vec2> half = half_of_hopper(hull);
+  if (part.half == barge::HullHalf::starboard)
+    for (Vec2& point : half)
+      point[0] = -point[0];
+  const bool aft = part.what == HullPart::What::aft_bulkhead;
+  return contact::BoundaryBody<3>::plate(part.name, contact::Surface(std::move(half), true),
+                                         (*hull.along_m)[aft ? 0 : 1], aft ? 1.0 : -1.0, hull.friction, spacing);
+}
+
+}  // namespace geocontainer_mpm::scene
