@@ -232,24 +232,25 @@ void Model<Dim>::build_loads(const SceneDescription& scene)
 {
   for (const auto& [name, support] : scene.supports)
     supports_.push_back(support);
-  if constexpr (Dim == 2)
-    build_tractions(scene);
+  build_tractions(scene);
 }
 
 template <int Dim>
 void Model<Dim>::build_tractions(const SceneDescription& scene)
 {
-  for (const auto& [name, description] : scene.tractions) {
-    const auto body = std::find_if(now_.bodies.begin(), now_.bodies.end(),
-                                   [&, &wanted = description.body](const Body& b) { return b.name == wanted; });
-    const BodyDescription& described = scene.bodies.at(description.body);
-    const double spacing = scene.grid.cell_size_m / described.particles_per_cell;
-    Traction traction(description, boundary_lines(described.shape, scene.hull, spacing), spacing, body->particles);
-    if (traction.pieces() == 0)
-      throw InputError(scene.source, "tractions." + name + ".region", "",
-                       "must hold part of the boundary of " + description.body);
-    now_.tractions.push_back(std::move(traction));
-    traction_body_.push_back(static_cast<std::size_t>(body - now_.bodies.begin()));
+  if constexpr (Dim == 2) {
+    for (const auto& [name, description] : scene.tractions) {
+      const auto body = std::find_if(now_.bodies.begin(), now_.bodies.end(),
+                                     [&, &wanted = description.body](const Body& b) { return b.name == wanted; });
+      const BodyDescription& described = scene.bodies.at(description.body);
+      const double spacing = scene.grid.cell_size_m / described.particles_per_cell;
+      Traction traction(description, boundary_lines(described.shape, scene.hull, spacing), spacing, body->particles);
+      if (traction.pieces() == 0)
+        throw InputError(scene.source, "tractions." + name + ".region", "",
+                         "must hold part of the boundary of " + description.body);
+      now_.tractions.push_back(std::move(traction));
+      traction_body_.push_back(static_cast<std::size_t>(body - now_.bodies.begin()));
+    }
   }
 }
 

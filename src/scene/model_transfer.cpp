@@ -232,7 +232,7 @@ void Model<Dim>::gather_sheets(Gather what, double dt)
 template <int Dim>
 void Model<Dim>::move_tracers(double dt)
 {
-  for (Tracer& tracer : now_.tracers) {
+  for (Tracer<Dim>& tracer : now_.tracers) {
     const Body& body = now_.bodies[tracer.body];
     const std::size_t p = body.row[tracer.owner];
     tracer.offset += dt * (body.gradient(p) * tracer.offset);

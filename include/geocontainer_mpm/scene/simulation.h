@@ -49,7 +49,7 @@ struct RunCounters {
 /// Why a run had to stop: what, where, when.
 struct Failure {
   std::string reason;  ///< one sentence: cause, body, particle
-  Vec2 position_m = Vec2::Zero();
+  Vec3 position_m = Vec3::Zero();
   double time_s = 0.0;
 };
 
