@@ -221,7 +221,7 @@ void Model::solve_contact(const StepInput& input, double kick)
   }
 }
 
-void Model::take(const contact::ContactSums& sums)
+void Model::take(const contact::ContactSums<2>& sums)
 {
   now_.kinetic += sums.kinetic_change;
   now_.ledger.contact += sums.dissipated;
@@ -233,21 +233,21 @@ void Model::take(const contact::ContactSums& sums)
 void Model::take_impulses(const Field& field)
 {
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
-    const contact::BoundaryImpulse& done = field.impulses.boundary[b];
+    const contact::BoundaryImpulse<2>& done = field.impulses.boundary[b];
     BoundaryTotal& total = now_.boundary_totals[b];
     total.impulse += done.impulse;
     total.moment += done.moment;
     total.work += done.work;
     now_.ledger.work_in += done.work;
   }
-  for (const contact::AnchorImpulse& anchor : field.impulses.anchor)
+  for (const contact::AnchorImpulse<2>& anchor : field.impulses.anchor)
     now_.ledger.work_in += anchor.work;
 }
 
 /// Where held ends of sheets are to be at the end of the step.
 void Model::collect_anchors(const StepInput& input, std::size_t field)
 {
-  std::vector<contact::Anchor>& anchors = fields_[field].anchors;
+  std::vector<contact::Anchor<2>>& anchors = fields_[field].anchors;
   anchors.clear();
   for (const HeldEnd& held : held_ends_) {
     const ModelSheet& sheet = now_.sheets[held.sheet];
@@ -287,7 +287,7 @@ void Model::restore(const ModelState& state)
 
 void Model::hold(bool held)
 {
-  for (contact::ContactSolver& contact : now_.contact)
+  for (contact::ContactSolver<2>& contact : now_.contact)
     contact.hold(held);
   for (contact::SheetContact& contact : now_.sheet_contact)
     contact.hold(held);

@@ -66,10 +66,10 @@ void Model::build_contacts(const SceneDescription& scene)
   }
 }
 
-contact::ContactPoints Model::points_of(const SheetPair& pair) const
+contact::ContactPoints<2> Model::points_of(const SheetPair& pair) const
 {
-  return pair.body ? contact::ContactPoints{ &now_.bodies[*pair.body].particles, true }
-                   : contact::ContactPoints{ &now_.sheets[pair.other_sheet].sheet.nodes(), false };
+  return pair.body ? contact::ContactPoints<2>{ &now_.bodies[*pair.body].particles, true }
+                   : contact::ContactPoints<2>{ &now_.sheets[pair.other_sheet].sheet.nodes(), false };
 }
 
 /// Nothing touches what has not started, and sheets whose boxes are apart.
@@ -87,7 +87,7 @@ bool Model::takes_part(const SheetPair& pair) const
 /// fill and the hull must satisfy both.
 void Model::solve_sheet_contact(const StepInput& input, double kick)
 {
-  std::vector<contact::ContactSums> sums(fields_.size());
+  std::vector<contact::ContactSums<2>> sums(fields_.size());
   for (std::size_t f = 0; f < fields_.size(); ++f)
     now_.contact[f].begin(boundaries_, fields_[f].points, fields_[f].anchors, input.dt_s, fields_[f].grid, sums[f]);
   std::vector<std::size_t> active;

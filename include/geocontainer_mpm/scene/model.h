@@ -118,7 +118,7 @@ struct ModelState {
   std::vector<ModelSheet> sheets;
   std::vector<Traction> tractions;
   std::vector<Tracer> tracers;
-  std::vector<contact::ContactSolver> contact;       ///< per field
+  std::vector<contact::ContactSolver<2>> contact;    ///< per field
   std::vector<contact::SheetContact> sheet_contact;  ///< in the order of the model's pairs
   std::vector<BoundaryTotal> boundary_totals;
   WaterState water;
@@ -164,7 +164,7 @@ public:
 
   const std::vector<Body>& bodies() const { return now_.bodies; }
   const std::vector<ModelSheet>& sheets() const { return now_.sheets; }
-  const std::vector<contact::BoundaryBody>& boundaries() const { return boundaries_; }
+  const std::vector<contact::BoundaryBody<2>>& boundaries() const { return boundaries_; }
   /// Index of the first hull half in boundaries() (port, then starboard), or -1.
   int hull_index() const { return hull_index_; }
   /// A new tracer at a point of a body, before the first step; its index.
@@ -194,10 +194,10 @@ private:
     mpm::GridUpdate<2> update;
     mpm::FrequencyBound<2> bound;
     Vec2 extent_lower = Vec2::Zero(), extent_upper = Vec2::Zero();  ///< of its particles, m
-    std::vector<contact::ContactPoints> all_points;                 ///< scratch of step()
-    std::vector<contact::ContactPoints> points;                     ///< scratch of step()
-    contact::ContactImpulses impulses;
-    std::vector<contact::Anchor> anchors;
+    std::vector<contact::ContactPoints<2>> all_points;              ///< scratch of step()
+    std::vector<contact::ContactPoints<2>> points;                  ///< scratch of step()
+    contact::ContactImpulses<2> impulses;
+    std::vector<contact::Anchor<2>> anchors;
   };
   /// Contact of two fields.
   struct FieldPair {
@@ -239,10 +239,10 @@ private:
   void build_late_starts(const SceneDescription& scene);
   std::optional<std::size_t> sheet_of_container(const SceneDescription& scene, const std::string& field) const;
   void add_sheet_pair(const SheetPair& pair, contact::SheetSide side, double friction);
-  contact::ContactPoints points_of(const SheetPair& pair) const;
+  contact::ContactPoints<2> points_of(const SheetPair& pair) const;
   bool takes_part(const SheetPair& pair) const;
   void solve_sheet_contact(const StepInput& input, double kick);
-  void take(const contact::ContactSums& sums);
+  void take(const contact::ContactSums<2>& sums);
   void take_impulses(const Field& field);
   void start_bodies(double time_s);
   double held(double LateStart::*what) const;
@@ -309,7 +309,7 @@ private:
   std::vector<FieldPair> pairs_;
   std::vector<SheetPair> sheet_pairs_;
   std::vector<LateStart> late_starts_;
-  std::vector<contact::BoundaryBody> boundaries_;
+  std::vector<contact::BoundaryBody<2>> boundaries_;
   std::vector<std::size_t> traction_body_;  ///< per traction, the index of its body
   std::optional<Water> water_;
   int hull_index_ = -1;
