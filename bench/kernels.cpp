@@ -175,15 +175,15 @@ void contact_solve(benchmark::State& state)
     sheet.velocity[1][p] = -0.1;
     sheet.mass[p] = sheet.weight_mass[p] = 20.0;
   }
-  std::vector<contact::BoundaryBody> bodies;
+  std::vector<contact::BoundaryBody<2>> bodies;
   bodies.emplace_back("wall", contact::Surface({ { -0.9, 0.0 }, { length + 0.9, 0.0 } }), 0.3, 0.5 * dx);
   bodies.back().set_motion({}, {}, 1e-3);
   mpm::Window<2> window;
   window.end = grid.counts();
   mpm::GridUpdate<2> update;
-  contact::ContactImpulses impulses;
-  const std::vector<contact::ContactPoints> touching{ { &sheet, false } };
-  contact::ContactSolver solver;
+  contact::ContactImpulses<2> impulses;
+  const std::vector<contact::ContactPoints<2>> touching{ { &sheet, false } };
+  contact::ContactSolver<2> solver;
   for (auto _ : state) {
     grid.open(window, alone);
     mpm::sheet_to_grid<2>({}, sheet, mpm::Part::all, { 0.0, -9.81 }, grid);

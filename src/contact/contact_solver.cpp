@@ -4,42 +4,97 @@
 #include <cmath>
 
 #include "approach.h"
-#include "geocontainer_mpm/mpm/reach.h"
 
 namespace geocontainer_mpm::contact {
 namespace {
 
 constexpr int mass_slot = mpm::Grid<2>::mass_slot;
+static_assert(mpm::Grid<3>::mass_slot == mass_slot);
 
 /// Points further from the surface than this are not looked at, cells: no step moves a point as far.
 constexpr double search_cells = 0.5;
 
 /// Corners of the window in space: contact needs material, and material is inside.
-bool is_near(const BoundaryBody& body, const mpm::Grid<2>& grid)
+template <int Dim>
+bool is_near(const BoundaryBody<Dim>& body, const mpm::Grid<Dim>& grid)
 {
-  const mpm::Window<2>& window = grid.window();
-  const Vec2 lower = grid.coordinate(window.begin), upper = grid.coordinate(window.end);
+  const mpm::Window<Dim>& window = grid.window();
+  const Vec<Dim> lower = grid.coordinate(window.begin), upper = grid.coordinate(window.end);
   for (std::size_t p = 0; p < body.size(); ++p) {
-    const Vec2 x = body.position(p);
+    const Vec<Dim> x = body.position(p);
     if ((x.array() >= lower.array()).all() && (x.array() <= upper.array()).all())
       return true;
   }
   return false;
 }
 
-template <class Handle>
-Vec2 velocity_of(const Handle& handle, const mpm::Grid<2>& grid)
+template <int Dim>
+Vec<Dim> vector_of(const typename mpm::Grid<Dim>::Node& node)
 {
-  mpm::Grid<2>::Node sum = mpm::Grid<2>::Node::Zero();
+  return node.matrix().template head<Dim>();
+}
+
+template <int Dim, class Handle>
+Vec<Dim> velocity_of(const Handle& handle, const mpm::Grid<Dim>& grid)
+{
+  typename mpm::Grid<Dim>::Node sum = mpm::Grid<Dim>::Node::Zero();
   for (std::size_t k = 0; k < handle.count; ++k)
     sum += handle.weight[k] * grid.nodes()[handle.node[k]];
-  return { sum[0], sum[1] };
+  return vector_of<Dim>(sum);
+}
+
+template <int Dim>
+Vec<Dim> place(const mpm::Particles<Dim>& particles, std::size_t p)
+{
+  Vec<Dim> x;
+  for (std::size_t d = 0; d < Dim; ++d)
+    x[static_cast<Eigen::Index>(d)] = particles.position[d][p];
+  return x;
+}
+
+/// Half the width of a particle: of a square or a cube of its volume, m.
+template <int Dim>
+double half_width(double volume)
+{
+  return 0.5 * (Dim == 2 ? std::sqrt(volume) : std::cbrt(volume));
+}
+
+/// The part of a vector along the surface.
+template <int Dim>
+Drag<Dim> along_surface(const Vec<Dim>& v, const Vec<Dim>& normal)
+{
+  if constexpr (Dim == 2)
+    return Drag<2>(v.dot(left_normal(normal)));
+  else
+    return v - v.dot(normal) * normal;
+}
+
+/// Nearest drag that friction can give.
+template <int Dim>
+Drag<Dim> within(const Drag<Dim>& drag, double limit)
+{
+  if constexpr (Dim == 2) {
+    return Drag<2>(std::clamp(drag[0], -limit, limit));
+  } else {
+    const double size = drag.norm();
+    return size > limit ? Drag<Dim>(limit / size * drag) : drag;
+  }
 }
 
 }  // namespace
 
+template <int Dim>
+Vec<Dim> ContactSolver<Dim>::impulse_of(const Load& load, const Vec<Dim>& normal)
+{
+  if constexpr (Dim == 2)
+    return load.pressed * normal + load.dragged[0] * left_normal(normal);
+  else
+    return load.pressed * normal + load.dragged;
+}
+
+template <int Dim>
 template <class Reach>
-ContactSolver::Handle ContactSolver::make_handle(const Reach& reach, const mpm::Grid<2>& grid)
+typename ContactSolver<Dim>::Handle ContactSolver<Dim>::make_handle(const Reach& reach, const mpm::Grid<Dim>& grid)
 {
   Handle handle;
   handle.count = static_cast<std::size_t>(reach.count);
@@ -48,29 +103,30 @@ ContactSolver::Handle ContactSolver::make_handle(const Reach& reach, const mpm::
     handle.node[k] = reach.node[k];
     const double mass = grid.nodes()[reach.node[k]][mass_slot];
     handle.weight[k] = mass > 0.0 ? reach.weight[k] : 0.0;
+    handle.mobility[k] = mass > 0.0 ? reach.weight[k] / mass : 0.0;
     if (mass > 0.0)
       handle.compliance += handle.weight[k] * handle.weight[k] / mass;
   }
   return handle;
 }
 
-void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const ContactPoints& points,
-                            std::size_t memory, double dt, const mpm::Grid<2>& grid)
+template <int Dim>
+void ContactSolver<Dim>::collect(std::uint32_t index, const BoundaryBody<Dim>& body, const ContactPoints<Dim>& points,
+                                 double widest, std::size_t memory, double dt, const mpm::Grid<Dim>& grid)
 {
-  const mpm::Particles<2>& particles = *points.particles;
+  const mpm::Particles<Dim>& particles = *points.particles;
   const double reach = search_cells * grid.dx();
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double width = points.has_width ? 0.5 * std::sqrt(particles.initial_volume[p]) : 0.0;
-    const Vec2 point(particles.position[0][p], particles.position[1][p]);
-    if (!body.may_touch(point, reach + width))
+    const Vec<Dim> point = place(particles, p);
+    if (!body.may_touch(point, reach + widest))
       continue;
-    const Nearest surface = body.nearest(point);
-    const double gap = surface.distance - width;
+    const Nearest<Dim> surface = body.nearest(point);
+    const double gap = surface.distance - (points.has_width ? half_width<Dim>(particles.initial_volume[p]) : 0.0);
     if (!(gap < reach))
       continue;
     Contact contact;
-    mpm::visit_reach_of<2>(shape_, particles, p, grid,
-                           [&](const auto& near) { contact.handle = make_handle(near, grid); });
+    mpm::visit_reach_of<Dim>(shape_, particles, p, grid,
+                             [&](const auto& near) { contact.handle = make_handle(near, grid); });
     contact.normal = surface.normal;
     contact.approach = least_velocity(gap, dt);
     contact.body = index;
@@ -78,108 +134,133 @@ void ContactSolver::collect(std::uint32_t index, const BoundaryBody& body, const
     contact.velocity = body.velocity_at(point);
     contact.point = point;
     contact.memory = memory + particles.id[p];
-    contact.pressed = memory_[contact.memory][0];
-    contact.dragged = memory_[contact.memory][1];
+    contact.load = memory_[contact.memory];
+    if constexpr (Dim == 3)  // the surface may have turned since
+      contact.load.dragged = along_surface(contact.load.dragged, contact.normal);
     contacts_.push_back(contact);
   }
 }
 
-void ContactSolver::begin(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
-                          const std::vector<Anchor>& anchors, double dt, const mpm::Grid<2>& grid, ContactSums& sums)
+template <int Dim>
+void ContactSolver<Dim>::begin(const std::vector<BoundaryBody<Dim>>& bodies,
+                               const std::vector<ContactPoints<Dim>>& points, const std::vector<Anchor<Dim>>& anchors,
+                               double dt, const mpm::Grid<Dim>& grid, ContactSums<Dim>& sums)
 {
   contacts_.clear();
-  touched_.clear();
+  others_.clear();
+  widest_.clear();
   std::size_t pairs = 0;
-  for (const ContactPoints& set : points)
+  for (const ContactPoints<Dim>& set : points) {
     pairs += set.particles->size() * bodies.size();
-  memory_.resize(pairs);
+    double most = 0.0;
+    if (set.has_width)
+      for (const double volume : set.particles->initial_volume)
+        most = std::max(most, volume);
+    widest_.push_back(half_width<Dim>(most));
+  }
+  if (memory_.size() != pairs) {
+    memory_.assign(pairs, {});
+    remembered_.clear();
+  }
   std::size_t memory = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bool near = is_near(bodies[b], grid);
     sums.skipped += near ? 0 : 1;
-    for (const ContactPoints& set : points) {
+    for (std::size_t s = 0; s < points.size(); ++s) {
       if (near)
-        collect(static_cast<std::uint32_t>(b), bodies[b], set, memory, dt, grid);
-      memory += set.particles->size();
+        collect(static_cast<std::uint32_t>(b), bodies[b], points[s], widest_[s], memory, dt, grid);
+      memory += points[s].particles->size();
     }
   }
-  anchor_memory_.resize(anchors.size(), Vec2::Zero());
+  anchor_memory_.resize(anchors.size(), Vec<Dim>::Zero());
   holds_.clear();
   for (std::size_t a = 0; a < anchors.size(); ++a)
-    holds_.push_back({ make_handle(mpm::reach_of<2>(shape_, anchors[a].point, grid), grid),
+    holds_.push_back({ make_handle(mpm::reach_of<Dim>(shape_, anchors[a].point, grid), grid),
                        (anchors[a].target - anchors[a].point) / dt, anchor_memory_[a] });
 }
 
-void ContactSolver::remember_untouched(const mpm::Grid<2>& grid)
+template <int Dim>
+void ContactSolver<Dim>::remember_untouched(const mpm::Grid<Dim>& grid)
 {
-  const auto add = [this](const Handle& handle) {
-    touched_.insert(touched_.end(), handle.node.begin(),
-                    handle.node.begin() + static_cast<std::ptrdiff_t>(handle.count));
+  seen_.resize(grid.size(), 0);
+  touched_.clear();
+  const auto add = [this](const auto& nodes, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (seen_[nodes[k]] == 0)
+        touched_.push_back(nodes[k]);
+      seen_[nodes[k]] = 1;
+    }
   };
+  add(others_, others_.size());
   for (const Contact& contact : contacts_)
-    add(contact.handle);
+    add(contact.handle.node, contact.handle.count);
   for (const Hold& hold : holds_)
-    add(hold.handle);
+    add(hold.handle.node, hold.handle.count);
   std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   untouched_velocity_.clear();
-  for (const std::uint32_t node : touched_)
-    untouched_velocity_.emplace_back(grid.nodes()[node][0], grid.nodes()[node][1]);
+  for (const std::uint32_t node : touched_) {
+    seen_[node] = 0;
+    untouched_velocity_.push_back(vector_of<Dim>(grid.nodes()[node]));
+  }
 }
 
-void ContactSolver::push(const Handle& handle, const Vec2& impulse, mpm::Grid<2>& grid) const
+template <int Dim>
+void ContactSolver<Dim>::push(const Handle& handle, const Vec<Dim>& impulse, mpm::Grid<Dim>& grid) const
 {
-  const mpm::Grid<2>::Node both{ impulse[0], impulse[1], 0.0, 0.0 };
+  typename mpm::Grid<Dim>::Node both = mpm::Grid<Dim>::Node::Zero();
+  both.matrix().template head<Dim>() = impulse;
   for (std::size_t k = 0; k < handle.count; ++k)
-    if (handle.weight[k] > 0.0) {
-      auto& node = grid.nodes()[handle.node[k]];
-      node += handle.weight[k] / node[mass_slot] * both;
-    }
+    grid.nodes()[handle.node[k]] += handle.mobility[k] * both;
 }
 
 /// Makes one contact right given all others. Returns the change of the point's velocity, m/s.
-double ContactSolver::relax(Contact& contact, mpm::Grid<2>& grid) const
+template <int Dim>
+double ContactSolver<Dim>::relax(Contact& contact, mpm::Grid<Dim>& grid) const
 {
-  const Vec2 slip = velocity_of(contact.handle, grid) - contact.velocity;
-  const Vec2 tangent = left_normal(contact.normal);
+  const Vec<Dim> slip = velocity_of(contact.handle, grid) - contact.velocity;
   const double compliance = contact.handle.compliance;
-  const double pressed = std::max(0.0, contact.pressed + (contact.approach - slip.dot(contact.normal)) / compliance);
-  const double limit = contact.friction * pressed;
-  const double dragged = std::clamp(contact.dragged - slip.dot(tangent) / compliance, -limit, limit);
-  const Vec2 impulse = (pressed - contact.pressed) * contact.normal + (dragged - contact.dragged) * tangent;
-  contact.pressed = pressed;
-  contact.dragged = dragged;
-  if (impulse[0] == 0.0 && impulse[1] == 0.0)
+  const Load before = contact.load;
+  Load& load = contact.load;
+  load.pressed = std::max(0.0, before.pressed + (contact.approach - slip.dot(contact.normal)) / compliance);
+  load.dragged =
+      within<Dim>(before.dragged - along_surface(slip, contact.normal) / compliance, contact.friction * load.pressed);
+  const Vec<Dim> impulse = impulse_of({ load.pressed - before.pressed, load.dragged - before.dragged }, contact.normal);
+  if ((impulse.array() == 0.0).all())
     return 0.0;
   push(contact.handle, impulse, grid);
-  return impulse.lpNorm<Eigen::Infinity>() * compliance;
+  return impulse.template lpNorm<Eigen::Infinity>() * compliance;
 }
 
 /// The same for an anchor.
-double ContactSolver::relax(Hold& hold, mpm::Grid<2>& grid) const
+template <int Dim>
+double ContactSolver<Dim>::relax(Hold& hold, mpm::Grid<Dim>& grid) const
 {
-  const Vec2 missing = hold.velocity - velocity_of(hold.handle, grid);
-  const Vec2 impulse = missing / hold.handle.compliance;
+  const Vec<Dim> missing = hold.velocity - velocity_of(hold.handle, grid);
+  const Vec<Dim> impulse = missing / hold.handle.compliance;
   hold.impulse += impulse;
   push(hold.handle, impulse, grid);
-  return missing.lpNorm<Eigen::Infinity>();
+  return missing.template lpNorm<Eigen::Infinity>();
 }
 
-void ContactSolver::also_touches(const std::vector<std::uint32_t>& nodes)
+template <int Dim>
+void ContactSolver<Dim>::also_touches(const std::vector<std::uint32_t>& nodes)
 {
-  touched_.insert(touched_.end(), nodes.begin(), nodes.end());
+  others_.insert(others_.end(), nodes.begin(), nodes.end());
 }
 
-void ContactSolver::guess(mpm::Grid<2>& grid)
+template <int Dim>
+void ContactSolver<Dim>::guess(mpm::Grid<Dim>& grid)
 {
   remember_untouched(grid);
   for (const Contact& c : contacts_)
-    push(c.handle, c.pressed * c.normal + c.dragged * left_normal(c.normal), grid);
+    if (c.load.pressed > 0.0)
+      push(c.handle, impulse_of(c.load, c.normal), grid);
   for (const Hold& hold : holds_)
     push(hold.handle, hold.impulse, grid);
 }
 
-double ContactSolver::sweep(int number, mpm::Grid<2>& grid)
+template <int Dim>
+double ContactSolver<Dim>::sweep(int number, mpm::Grid<Dim>& grid)
 {
   // There and back in turn, so that neither end of the surface is favoured.
   const std::size_t count = contacts_.size(), all = count + holds_.size();
@@ -191,22 +272,26 @@ double ContactSolver::sweep(int number, mpm::Grid<2>& grid)
   return change;
 }
 
-void ContactSolver::report(const std::vector<BoundaryBody>& bodies, ContactImpulses& impulses, ContactSums& sums)
+template <int Dim>
+void ContactSolver<Dim>::report(const std::vector<BoundaryBody<Dim>>& bodies, ContactImpulses<Dim>& impulses,
+                                ContactSums<Dim>& sums)
 {
-  next_memory_.assign(memory_.size(), { 0.0, 0.0 });
+  for (const std::size_t pair : remembered_)
+    memory_[pair] = {};
+  remembered_.clear();
   for (const Contact& c : contacts_) {
-    next_memory_[c.memory] = { c.pressed, c.dragged };
-    if (c.pressed == 0.0)
+    if (c.load.pressed == 0.0)
       continue;
-    const Vec2 impulse = c.pressed * c.normal + c.dragged * left_normal(c.normal);
-    const Vec2 arm = bodies[c.body].arm_at(c.point);
-    BoundaryImpulse& boundary = impulses.boundary[c.body];
+    memory_[c.memory] = c.load;
+    remembered_.push_back(c.memory);
+    const Vec<Dim> impulse = impulse_of(c.load, c.normal);
+    const Vec2 arm = bodies[c.body].arm_at(c.point), across = in_section(impulse);
+    BoundaryImpulse<Dim>& boundary = impulses.boundary[c.body];
     boundary.impulse += impulse;
-    boundary.moment += arm[0] * impulse[1] - arm[1] * impulse[0];
+    boundary.moment += arm[0] * across[1] - arm[1] * across[0];
     boundary.work += impulse.dot(c.velocity);
     sums.impulse += impulse;
   }
-  memory_.swap(next_memory_);
   for (std::size_t a = 0; a < holds_.size(); ++a) {
     anchor_memory_[a] = holds_[a].impulse;
     impulses.anchor[a] = { holds_[a].impulse, holds_[a].impulse.dot(holds_[a].velocity) };
@@ -214,11 +299,13 @@ void ContactSolver::report(const std::vector<BoundaryBody>& bodies, ContactImpul
   }
 }
 
-ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const std::vector<ContactPoints>& points,
-                                 const std::vector<Anchor>& anchors, double kick, double dt, mpm::Grid<2>& grid,
-                                 ContactImpulses& impulses)
+template <int Dim>
+ContactSums<Dim> ContactSolver<Dim>::solve(const std::vector<BoundaryBody<Dim>>& bodies,
+                                           const std::vector<ContactPoints<Dim>>& points,
+                                           const std::vector<Anchor<Dim>>& anchors, double kick, double dt,
+                                           mpm::Grid<Dim>& grid, ContactImpulses<Dim>& impulses)
 {
-  ContactSums sums;
+  ContactSums<Dim> sums;
   begin(bodies, points, anchors, dt, grid, sums);
   guess(grid);
   double change = contacts_.empty() && holds_.empty() ? 0.0 : 1.0;
@@ -228,8 +315,9 @@ ContactSums ContactSolver::solve(const std::vector<BoundaryBody>& bodies, const 
   return sums;
 }
 
-void ContactSolver::end(const std::vector<BoundaryBody>& bodies, double kick, const mpm::Grid<2>& grid,
-                        ContactImpulses& impulses, ContactSums& sums)
+template <int Dim>
+void ContactSolver<Dim>::end(const std::vector<BoundaryBody<Dim>>& bodies, double kick, const mpm::Grid<Dim>& grid,
+                             ContactImpulses<Dim>& impulses, ContactSums<Dim>& sums)
 {
   impulses.boundary.assign(bodies.size(), {});
   impulses.anchor.assign(holds_.size(), {});
@@ -242,17 +330,20 @@ void ContactSolver::end(const std::vector<BoundaryBody>& bodies, double kick, co
     const double mass = node[mass_slot];
     if (!(mass > 0.0))
       continue;
-    const auto& force = grid.forces()[touched_[k]];
-    const Vec2 after(node[0], node[1]);
-    const Vec2 impulse = mass * (after - untouched_velocity_[k]);
-    const Vec2 before = untouched_velocity_[k] - kick / mass * Vec2(force[0], force[1]);
+    const Vec<Dim> force = grid.forces()[touched_[k]].matrix().template head<Dim>();
+    const Vec<Dim> after = vector_of<Dim>(node);
+    const Vec<Dim> impulse = mass * (after - untouched_velocity_[k]);
+    const Vec<Dim> before = untouched_velocity_[k] - kick / mass * force;
     sums.kinetic_change += 0.5 * impulse.dot(after + untouched_velocity_[k]);
     sums.dissipated -= 0.5 * impulse.dot(after + before);
   }
-  for (const BoundaryImpulse& b : impulses.boundary)
+  for (const BoundaryImpulse<Dim>& b : impulses.boundary)
     sums.dissipated += b.work;
-  for (const AnchorImpulse& a : impulses.anchor)
+  for (const AnchorImpulse<Dim>& a : impulses.anchor)
     sums.dissipated += a.work;
 }
+
+template class ContactSolver<2>;
+template class ContactSolver<3>;
 
 }  // namespace geocontainer_mpm::contact

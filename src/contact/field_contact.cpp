@@ -63,7 +63,7 @@ void FieldContact::find_nodes(const mpm::Grid<2>& a, const mpm::Grid<2>& b)
 }
 
 template <class Reach>
-void FieldContact::add(std::size_t side, const ContactPoints& set, std::size_t p, const Vec2& x, const Reach& reach)
+void FieldContact::add(std::size_t side, const ContactPoints<2>& set, std::size_t p, const Vec2& x, const Reach& reach)
 {
   const double volume = set.particles->initial_volume[p];
   const double half_width = set.has_width ? 0.5 * std::sqrt(volume) : 0.0;
@@ -83,7 +83,7 @@ void FieldContact::add(std::size_t side, const ContactPoints& set, std::size_t p
 
 void FieldContact::gather(std::size_t side, const ContactField& field)
 {
-  for (const ContactPoints& set : *field.points) {
+  for (const ContactPoints<2>& set : *field.points) {
     const mpm::Particles<2>& particles = *set.particles;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vec2 x(particles.position[0][p], particles.position[1][p]);
@@ -106,7 +106,7 @@ void FieldContact::fill_cloud(std::uint32_t first, Cloud& cloud) const
 }
 
 /// Gap and normal, from a to b, of a node. `reach`: a gap as wide as this along any direction is open, m.
-Nearest FieldContact::separation(const Node& node, double reach, double tiny)
+Nearest<2> FieldContact::separation(const Node& node, double reach, double tiny)
 {
   for (std::size_t side = 0; side < 2; ++side)
     fill_cloud(node.first[side], cloud_[side]);
@@ -134,9 +134,10 @@ Nearest FieldContact::separation(const Node& node, double reach, double tiny)
   return { gap(normal), normal };
 }
 
-ContactSums FieldContact::solve(const ContactField& a, const ContactField& b, double friction, double kick, double dt)
+ContactSums<2> FieldContact::solve(const ContactField& a, const ContactField& b, double friction, double kick,
+                                   double dt)
 {
-  ContactSums sums;
+  ContactSums<2> sums;
   find_nodes(*a.grid, *b.grid);
   if (nodes_.empty()) {
     sums.skipped = 1;
@@ -152,7 +153,7 @@ ContactSums FieldContact::solve(const ContactField& a, const ContactField& b, do
     const double mass_a = node_a[mass_slot], mass_b = node_b[mass_slot];
     const Vec2 before_a(node_a[0], node_a[1]), before_b(node_b[0], node_b[1]);
     const Vec2 slip = before_b - before_a;
-    const Nearest surface = separation(node, slip.norm() * dt, tiny);
+    const Nearest<2> surface = separation(node, slip.norm() * dt, tiny);
     const double missing = least_velocity(surface.distance, dt) - slip.dot(surface.normal);
     if (!(missing > 0.0))
       continue;

@@ -164,7 +164,7 @@ void SheetContact::add(const Vec2& point, const Foot& foot, double gap, std::siz
   contacts_.push_back(contact);
 }
 
-void SheetContact::begin(const ContactPoints& points, const mpm::Grid<2>& point_grid, const ClosedSheet& sheet,
+void SheetContact::begin(const ContactPoints<2>& points, const mpm::Grid<2>& point_grid, const ClosedSheet& sheet,
                          const mpm::Grid<2>& sheet_grid, double dt)
 {
   const mpm::Particles<2>& particles = *points.particles;

@@ -43,10 +43,10 @@ Surface::Surface(std::vector<Vec2> line, bool closed) : line_(std::move(line)), 
   }
 }
 
-Nearest Surface::nearest(const Vec2& point) const
+Nearest<2> Surface::nearest(const Vec2& point) const
 {
   double best = std::numeric_limits<double>::infinity();
-  Nearest result{ best, Vec2::Zero() };
+  Nearest<2> result{ best, Vec2::Zero() };
   if (chunks_.size() == 1) {
     look_at(chunks_.front(), point, best, result);
     return result;
@@ -70,7 +70,7 @@ Nearest Surface::nearest(const Vec2& point) const
   return result;
 }
 
-void Surface::look_at(const Chunk& chunk, const Vec2& point, double& best, Nearest& result) const
+void Surface::look_at(const Chunk& chunk, const Vec2& point, double& best, Nearest<2>& result) const
 {
   const std::size_t segments = length_.size();
   for (std::size_t k = chunk.begin; k < chunk.end; ++k) {

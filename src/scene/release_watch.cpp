@@ -297,7 +297,7 @@ void fill_frame(const Model<Dim>& model, const SceneDescription& scene, const st
     frame.geotextile.push_back(std::move(geotextile));
   }
   for (std::size_t b = 0; b < model.boundaries().size(); ++b) {
-    const contact::BoundaryBody& body = model.boundaries()[b];
+    const contact::BoundaryBody<2>& body = model.boundaries()[b];
     BoundaryFrame boundary;
     boundary.name = body.name();
     for (std::size_t p = 0; p < body.size(); ++p)

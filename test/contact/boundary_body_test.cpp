@@ -9,9 +9,9 @@
 namespace geocontainer_mpm::contact::testing {
 namespace {
 
-BoundaryBody random_body(Chance& chance, double spacing)
+BoundaryBody<2> random_body(Chance& chance, double spacing)
 {
-  return BoundaryBody("hull", Surface(random_ground(chance, chance.whole(1, 5))), 0.3, spacing);
+  return BoundaryBody<2>("hull", Surface(random_ground(chance, chance.whole(1, 5))), 0.3, spacing);
 }
 
 TEST(BoundaryBody, CoversItsSurfaceAtTheSpacing)
@@ -19,7 +19,7 @@ TEST(BoundaryBody, CoversItsSurfaceAtTheSpacing)
   EXPECT_TRUE(holds("spacing", [](Chance& chance) {
     const std::vector<Vec2> line = random_ground(chance, chance.whole(1, 5));
     const double spacing = chance(0.01, 0.5);
-    BoundaryBody body("hull", Surface(line), 0.3, spacing);
+    BoundaryBody<2> body("hull", Surface(line), 0.3, spacing);
     body.set_motion({}, {}, 1.0);
     for (std::size_t p = 0; p < body.size(); ++p) {
       RC_ASSERT(brute_nearest(line, body.reference(p)).distance < 1e-13);
@@ -35,7 +35,7 @@ TEST(BoundaryBody, CoversItsSurfaceAtTheSpacing)
 
 TEST(BoundaryBody, CoversAClosedSurfaceToItsLastSegment)
 {
-  BoundaryBody body("block", Surface({ { 0.0, 0.0 }, { 0.0, 1.0 }, { 1.0, 1.0 }, { 1.0, 0.0 } }, true), 0.3, 0.25);
+  BoundaryBody<2> body("block", Surface({ { 0.0, 0.0 }, { 0.0, 1.0 }, { 1.0, 1.0 }, { 1.0, 0.0 } }, true), 0.3, 0.25);
   ASSERT_EQ(body.size(), 16U);
   Vec2 middle = Vec2::Zero();
   for (std::size_t p = 0; p < body.size(); ++p)
@@ -46,7 +46,7 @@ TEST(BoundaryBody, CoversAClosedSurfaceToItsLastSegment)
 TEST(BoundaryBody, IsTheExactMotionAfterAnyHistory)
 {
   EXPECT_TRUE(holds("history", [](Chance& chance) {
-    BoundaryBody body = random_body(chance, 0.1);
+    BoundaryBody<2> body = random_body(chance, 0.1);
     const Vec2 pivot = chance.vector<2>(3.0);
     double angle = chance(-1.0, 1.0);
     Vec2 shift = chance.vector<2>(2.0);
@@ -71,13 +71,13 @@ TEST(BoundaryBody, IsTheExactMotionAfterAnyHistory)
 TEST(BoundaryBody, CarriesItsSurfaceWithIt)
 {
   EXPECT_TRUE(holds("nearest", [](Chance& chance) {
-    BoundaryBody body = random_body(chance, 0.1);
+    BoundaryBody<2> body = random_body(chance, 0.1);
     body.set_motion({}, {}, 1.0);
     const Vec2 x = body.reference(0) + chance.vector<2>(1.0);
-    const Nearest before = body.nearest(x);
+    const Nearest<2> before = body.nearest(x);
     const RigidPose pose = RigidPose::motion(chance(-2.0, 2.0), chance.vector<2>(3.0), chance.vector<2>(3.0));
     body.set_motion(pose, pose, 1.0);
-    const Nearest after = body.nearest(pose.apply(x));
+    const Nearest<2> after = body.nearest(pose.apply(x));
     if (std::isinf(before.distance) || std::isinf(after.distance))
       return;  // at the very end of the line rounding may decide
     RC_ASSERT(std::abs(after.distance - before.distance) < 1e-12);
@@ -89,7 +89,7 @@ TEST(BoundaryBody, CarriesItsSurfaceWithIt)
 TEST(BoundaryBody, NeverMissesAPointWithinReach)
 {
   EXPECT_TRUE(holds("first look", [](Chance& chance) {
-    BoundaryBody body = random_body(chance, 0.1);
+    BoundaryBody<2> body = random_body(chance, 0.1);
     const RigidPose pose = RigidPose::rotation(chance(-2.0, 2.0), chance.vector<2>(3.0));
     body.set_motion(pose, pose, 1.0);
     const double reach = chance(0.0, 0.5);

@@ -103,10 +103,10 @@ struct Patch {
 };
 
 /// A straight wall through `point`, long enough, whose free side is where `normal` looks; at rest.
-inline BoundaryBody wall(const Vec2& point, const Vec2& normal, double friction)
+inline BoundaryBody<2> wall(const Vec2& point, const Vec2& normal, double friction)
 {
   const Vec2 tangent(normal[1], -normal[0]);
-  BoundaryBody body("wall", Surface({ point - 3.0 * tangent, point + 3.0 * tangent }), friction, 0.05);
+  BoundaryBody<2> body("wall", Surface({ point - 3.0 * tangent, point + 3.0 * tangent }), friction, 0.05);
   body.set_motion({}, {}, 1e-3);
   return body;
 }

@@ -15,21 +15,22 @@ constexpr double dt = 1e-3;
 constexpr double converged = 1e-4;
 
 struct Solved {
-  ContactSums sums;
-  std::vector<BoundaryImpulse> boundary;
-  std::vector<AnchorImpulse> anchor;
+  ContactSums<2> sums;
+  std::vector<BoundaryImpulse<2>> boundary;
+  std::vector<AnchorImpulse<2>> anchor;
 };
 
-Solved solve(ContactSolver& solver, const std::vector<BoundaryBody>& bodies, Patch& patch, double kick = 0.0,
-             const std::vector<Anchor>& anchors = {})
+Solved solve(ContactSolver<2>& solver, const std::vector<BoundaryBody<2>>& bodies, Patch& patch, double kick = 0.0,
+             const std::vector<Anchor<2>>& anchors = {})
 {
-  ContactImpulses impulses;
-  const ContactSums sums = solver.solve(bodies, { { &patch.points, false } }, anchors, kick, dt, patch.grid, impulses);
+  ContactImpulses<2> impulses;
+  const ContactSums<2> sums =
+      solver.solve(bodies, { { &patch.points, false } }, anchors, kick, dt, patch.grid, impulses);
   return { sums, impulses.boundary, impulses.anchor };
 }
-Solved solve(const std::vector<BoundaryBody>& bodies, Patch& patch, double kick = 0.0)
+Solved solve(const std::vector<BoundaryBody<2>>& bodies, Patch& patch, double kick = 0.0)
 {
-  ContactSolver solver;
+  ContactSolver<2> solver;
   return solve(solver, bodies, patch, kick);
 }
 
@@ -92,8 +93,8 @@ TEST(ContactSolver, NoPointOfARowEndsBehindTheWallAndOnlyTouchingOnesArePushed)
     Patch patch(random_row(chance, normal, 0.0, 0.004));
     patch.set_velocity(chance.vector<2>(3.0) - 2.0 * normal);
     // Cold, 30 sweeps can end up to 2e-4 m/s short in one case of some thousand; from remembered impulses they do not.
-    const std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), normal, chance(0.0, 1.0)) };
-    ContactSolver solver;
+    const std::vector<BoundaryBody<2>> bodies{ wall(Vec2::Zero(), normal, chance(0.0, 1.0)) };
+    ContactSolver<2> solver;
     Solved solved;
     for (int attempt = 0; attempt < 4; ++attempt) {
       patch.to_grid();
@@ -115,8 +116,8 @@ TEST(ContactSolver, DoesNotHinderSeparationEvenAfterPressing)
   EXPECT_TRUE(holds("separation", [](Chance& chance) {
     const Vec2 normal = random_normal(chance);
     Patch patch(random_row(chance, normal, 0.0, 1e-4));
-    const std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), normal, 0.6) };
-    ContactSolver solver;
+    const std::vector<BoundaryBody<2>> bodies{ wall(Vec2::Zero(), normal, 0.6) };
+    ContactSolver<2> solver;
     patch.set_velocity(chance.vector<2>(0.5) - 1.0 * normal);
     patch.to_grid();
     RC_ASSERT(solve(solver, bodies, patch).sums.impulse.norm() > 0.0);
@@ -179,7 +180,7 @@ TEST(ContactSolver, HeldContactSticksWithoutFriction)
     Patch patch({ Vec2::Zero() });
     patch.set_velocity(-chance(0.1, 1.0) * normal + chance(-2.0, 2.0) * tangent);
     patch.to_grid();
-    ContactSolver solver;
+    ContactSolver<2> solver;
     solver.hold(true);
     solve(solver, { wall(Vec2::Zero(), normal, 0.0) }, patch);
     RC_ASSERT(patch.velocity_at(Vec2::Zero()).norm() < 1e-12);
@@ -195,7 +196,7 @@ TEST(ContactSolver, ChangesMomentumByTheImpulseItReportsAndEnergyByItsBook)
       patch.set_velocity(p, chance.vector<2>(2.0) - 1.0 * normal);
     const double kick = chance(0.0, 2e-3);
     patch.to_grid(chance.vector<2>(100.0), kick);
-    BoundaryBody moving = wall(Vec2::Zero(), normal, chance(0.0, 1.0));
+    BoundaryBody<2> moving = wall(Vec2::Zero(), normal, chance(0.0, 1.0));
     const double turn = chance(-1.0, 1.0) * dt;
     moving.set_motion({ 1.0, 0.0, { 0.0, 3.0 } }, RigidPose::rotation(turn, { 0.0, 3.0 }), dt);
     const Vec2 momentum = patch.momentum();
@@ -247,7 +248,7 @@ TEST(ContactSolver, AMovingWallDoesTheWorkItReports)
     Patch patch({ Vec2::Zero() });
     patch.set_velocity(chance.vector<2>(1.0));
     patch.to_grid();
-    BoundaryBody body = wall(Vec2::Zero(), normal, chance(0.0, 1.0));
+    BoundaryBody<2> body = wall(Vec2::Zero(), normal, chance(0.0, 1.0));
     const Vec2 pivot = chance.vector<2>(3.0);
     body.set_motion(RigidPose::rotation(0.0, pivot), RigidPose::rotation(chance(-2.0, 2.0) * dt, pivot), dt);
     const Vec2 pushed = body.velocity_at(Vec2::Zero());
@@ -274,10 +275,10 @@ TEST(ContactSolver, ForceAndMomentOfAMovingWallMakeUpItsWork)
     const double angle = chance(-2.0, 2.0), turn = chance(-0.3, 0.3) * dt;
     const RigidPose start = RigidPose::motion(angle, pivot, shift);
     const Vec2 travel = chance.vector<2>(1.0) * dt, tangent(normal[1], -normal[0]);
-    BoundaryBody body("plate", Surface({ start.invert(-3.0 * tangent), start.invert(3.0 * tangent) }), chance(0.0, 1.0),
-                      0.05);
+    BoundaryBody<2> body("plate", Surface({ start.invert(-3.0 * tangent), start.invert(3.0 * tangent) }),
+                         chance(0.0, 1.0), 0.05);
     body.set_motion(start, RigidPose::motion(angle + turn, pivot, shift + travel), dt);
-    const BoundaryImpulse did = solve({ body }, patch).boundary[0];
+    const BoundaryImpulse<2> did = solve({ body }, patch).boundary[0];
     RC_ASSERT(did.impulse.norm() > 0.0);
     const double work = did.impulse.dot(travel) / dt + did.moment * turn / dt;
     RC_ASSERT(std::abs(did.work - work) < 1e-6 * did.impulse.norm());  // round-off over dt; turn^2 / 12 is 1e-7
@@ -291,12 +292,12 @@ TEST(ContactSolver, AnchorsArriveWhereTheyAreToBe)
     patch.set_velocity(chance.vector<2>(2.0));
     const double kick = chance(0.0, 2e-3);
     patch.to_grid(chance.vector<2>(100.0), kick);
-    std::vector<Anchor> anchors;
+    std::vector<Anchor<2>> anchors;
     for (const std::size_t p : { std::size_t{ 0 }, patch.size() - 1 })
       anchors.push_back({ patch.at(p), patch.at(p) + chance.vector<2>(2.0) * dt });
     const Vec2 momentum = patch.momentum();
     const double kinetic = patch.kinetic();
-    ContactSolver solver;
+    ContactSolver<2> solver;
     const Solved solved = solve(solver, {}, patch, kick, anchors);
     const double size = 1.0 + kinetic;
     Vec2 total = Vec2::Zero();
@@ -321,8 +322,8 @@ TEST(ContactSolver, TakesTheShapeOfItsField)
     Patch patch({ chance.vector<2>(0.1), chance.vector<2>(0.1) });
     patch.set_velocity(chance.vector<2>(1.0));
     patch.to_grid();
-    const std::vector<Anchor> anchors{ { patch.at(0), patch.at(0) + chance.vector<2>(1.0) * dt } };
-    ContactSolver solver(mpm::Shape::linear_simplex);
+    const std::vector<Anchor<2>> anchors{ { patch.at(0), patch.at(0) + chance.vector<2>(1.0) * dt } };
+    ContactSolver<2> solver(mpm::Shape::linear_simplex);
     const Solved solved = solve(solver, {}, patch, 0.0, anchors);
     const auto reach = mpm::simplex_reach<2>(patch.at(0), patch.grid);
     Vec2 velocity = Vec2::Zero();
@@ -339,12 +340,12 @@ TEST(ContactSolver, TwoWallsAtOneNodeHoldAPointInTheirV)
     // Walls that open by 60 to 150 degrees above the tip, each with its own friction; points a little above it.
     const double half = chance(30.0, 75.0) * pi / 180.0;
     const Vec2 port(-std::cos(half), std::sin(half)), starboard(std::cos(half), std::sin(half));
-    const std::vector<BoundaryBody> bodies{ wall(Vec2::Zero(), port, chance(0.0, 0.5)),
-                                            wall(Vec2::Zero(), starboard, chance(0.0, 0.5)) };
+    const std::vector<BoundaryBody<2>> bodies{ wall(Vec2::Zero(), port, chance(0.0, 0.5)),
+                                               wall(Vec2::Zero(), starboard, chance(0.0, 0.5)) };
     Patch patch({ { 0.0, chance(0.0, 0.003) }, { 0.05, chance(0.09, 0.15) }, { -0.05, chance(0.09, 0.15) } });
     const Vec2 impact(chance(-1.0, 1.0), -chance(1.0, 4.0));
     patch.set_velocity(impact);
-    ContactSolver solver;
+    ContactSolver<2> solver;
     const auto worst = [&] {  // velocity that still leads behind a wall, part of the impact's
       patch.to_grid();
       const Solved solved = solve(solver, bodies, patch);
@@ -377,9 +378,9 @@ TEST(ContactSolver, TakesABodyWithoutASheetAtItsOwnSurface)
     patch.points.initial_volume[0] = width * width;
     patch.set_velocity(-chance(1.5, 3.0) * normal);
     patch.to_grid();
-    ContactImpulses impulses;
-    ContactSolver().solve({ wall(Vec2::Zero(), normal, 0.0) }, { { &patch.points, true } }, {}, 0.0, dt, patch.grid,
-                          impulses);
+    ContactImpulses<2> impulses;
+    ContactSolver<2>().solve({ wall(Vec2::Zero(), normal, 0.0) }, { { &patch.points, true } }, {}, 0.0, dt, patch.grid,
+                             impulses);
     RC_ASSERT(std::abs(gap + dt * patch.velocity_at(patch.at(0)).dot(normal)) < 1e-14);
   }));
 }

@@ -35,11 +35,11 @@ TEST(FieldContact, ActsWhenTheFacesMeetAndNotBefore)
     const double dt = chance(1e-3, 5e-3), meet = (gap - width) / speed;
     double time = 0.0;
     for (; time + dt <= meet * (1.0 - 1e-9); time += dt) {
-      const ContactSums sums = step(a, b, contact, 0.5, dt, dt);
+      const ContactSums<2> sums = step(a, b, contact, 0.5, dt, dt);
       RC_ASSERT(sums.impulse == Vec2::Zero());
     }
     const Vec2 before = b.momentum() + a.momentum();
-    const ContactSums sums = step(a, b, contact, 0.0, dt, dt);
+    const ContactSums<2> sums = step(a, b, contact, 0.0, dt, dt);
     RC_ASSERT(sums.impulse.dot(normal) > 0.0);
     // The direct way between two straight faces is their normal, but at nodes that see only a corner of each.
     RC_ASSERT(std::abs(sums.impulse.dot(Vec2(-normal[1], normal[0]))) < 0.02 * sums.impulse.norm());
@@ -79,7 +79,7 @@ Rebound two_discs(int cells, const Vec2& shift)
   double time = 0.0, kinetic = 0.0, last = 0.0;
   const double dt = courant * size / std::sqrt(material::constrained_modulus(rubber) / 1000.0);
   while (time < 3.0) {
-    const ContactSums sums = step(*disc[0], *disc[1], contact, 0.0, last, dt);
+    const ContactSums<2> sums = step(*disc[0], *disc[1], contact, 0.0, last, dt);
     if (last == 0.0)
       kinetic = disc[0]->kinetic() + disc[1]->kinetic();
     last = dt;
@@ -133,7 +133,7 @@ TEST(FieldContact, ConservesMomentumAndKeepsItsEnergyBook)
     pair.b.to_grid(kick);
     const Vec2 momentum_a = pair.a.momentum(), momentum_b = pair.b.momentum();
     const double kinetic = pair.a.kinetic() + pair.b.kinetic();
-    const ContactSums sums = FieldContact().solve(pair.a.side(), pair.b.side(), friction, kick, dt);
+    const ContactSums<2> sums = FieldContact().solve(pair.a.side(), pair.b.side(), friction, kick, dt);
     const double change = pair.a.kinetic() + pair.b.kinetic() - kinetic, size = 1.0 + kinetic;
     RC_ASSERT(sums.impulse.norm() > 0.0);
     RC_ASSERT(sums.skipped == 0U);
@@ -158,7 +158,7 @@ TEST(FieldContact, GivesTheCoulombAnswerForOneRigidBlow)
     pair.b.set_velocity(common + Vec2(along, -down));
     pair.a.to_grid(0.0);
     pair.b.to_grid(0.0);
-    const ContactSums sums = FieldContact().solve(pair.a.side(), pair.b.side(), friction, 0.0, 1e-3);
+    const ContactSums<2> sums = FieldContact().solve(pair.a.side(), pair.b.side(), friction, 0.0, 1e-3);
     const double ratio = std::min(friction, std::abs(along) / down);
     RC_ASSERT(sums.impulse[1] > 0.0);
     RC_ASSERT(std::abs(sums.impulse[0] + std::copysign(ratio, along) * sums.impulse[1]) < 1e-9 * sums.impulse[1]);
@@ -223,7 +223,7 @@ TEST(FieldContact, ASheetWithoutWidthMeetsABodyAtItsFace)
     sheet.set_velocity({ chance(-1.0, 1.0), -down });
     pair.a.to_grid(0.0);
     sheet.to_grid(0.0);
-    const ContactSums sums = FieldContact().solve(pair.a.side(), sheet.side(), 0.0, 0.0, dt);
+    const ContactSums<2> sums = FieldContact().solve(pair.a.side(), sheet.side(), 0.0, 0.0, dt);
     RC_ASSERT((sums.impulse[1] > 0.0) == (down * dt > gap));
     RC_ASSERT(std::abs(sums.impulse[0]) < 0.05 * (1e-9 + sums.impulse[1]));  // nodes beyond its ends look aslant
   }));
@@ -247,7 +247,8 @@ TEST(FieldContact, ClosesTheGapExactlyOnLinearSimplicesToo)
     scatter(pair.a, Vec2::Zero());
     scatter(pair.b, { 0.3, -speed });
     const Vec2 before = pair.a.momentum() + pair.b.momentum();
-    const ContactSums sums = FieldContact(mpm::Shape::linear_simplex).solve(pair.a.side(), pair.b.side(), 0.0, 0.0, dt);
+    const ContactSums<2> sums =
+        FieldContact(mpm::Shape::linear_simplex).solve(pair.a.side(), pair.b.side(), 0.0, 0.0, dt);
     RC_ASSERT(sums.impulse[1] > 0.0);
     RC_ASSERT(apart(pair.a.momentum() + pair.b.momentum(), before) < 1e-12 * before.norm());
     const auto place = [&](std::size_t i) {

@@ -22,7 +22,7 @@ TEST(Surface, IsPositiveAboveTheGroundAndNegativeInIt)
       const Brute brute = brute_nearest(ground, x);
       if (brute.at_end)
         continue;
-      const Nearest nearest = surface.nearest(x);
+      const Nearest<2> nearest = surface.nearest(x);
       RC_ASSERT(std::abs(std::abs(nearest.distance) - brute.distance) < 1e-12);
       RC_ASSERT((nearest.distance > 0.0) == (above > 0.0));
     }
@@ -38,7 +38,7 @@ TEST(Surface, HasAUnitNormalThatPointsAwayFromItsNearestPoint)
     const Vec2 x(y, height_at(ground, y) + chance(-1.0, 1.0));
     if (brute_nearest(ground, x).at_end)
       return;
-    const Nearest nearest = surface.nearest(x);
+    const Nearest<2> nearest = surface.nearest(x);
     RC_ASSERT(std::abs(nearest.normal.norm() - 1.0) < 1e-12);
     RC_ASSERT(brute_nearest(ground, x - nearest.distance * nearest.normal).distance < 1e-12);
   }));
@@ -47,10 +47,10 @@ TEST(Surface, HasAUnitNormalThatPointsAwayFromItsNearestPoint)
 TEST(Surface, AtAConvexCornerLooksAwayFromTheVertex)
 {
   const Surface roof({ { -1.0, -1.0 }, { 0.0, 0.0 }, { 1.0, -1.0 } });
-  const Nearest above = roof.nearest({ 0.1, 0.3 });
+  const Nearest<2> above = roof.nearest({ 0.1, 0.3 });
   EXPECT_NEAR(above.distance, std::hypot(0.1, 0.3), 1e-15);
   EXPECT_NEAR(above.normal[0], 0.1 / std::hypot(0.1, 0.3), 1e-15);
-  const Nearest on = roof.nearest({ 0.0, 0.0 });
+  const Nearest<2> on = roof.nearest({ 0.0, 0.0 });
   EXPECT_EQ(on.distance, 0.0);
   EXPECT_NEAR(on.normal.norm(), 1.0, 1e-15);
   EXPECT_GT(on.normal[1], 0.0);
@@ -59,7 +59,7 @@ TEST(Surface, AtAConvexCornerLooksAwayFromTheVertex)
 TEST(Surface, InAConcaveCornerIsNegativeBehindTheVertex)
 {
   const Surface valley({ { -1.0, 1.0 }, { 0.0, 0.0 }, { 1.0, 1.0 } });
-  const Nearest below = valley.nearest({ 0.1, -0.3 });
+  const Nearest<2> below = valley.nearest({ 0.1, -0.3 });
   EXPECT_NEAR(below.distance, -std::hypot(0.1, 0.3), 1e-15);
   EXPECT_GT(below.normal[1], 0.0);
   EXPECT_NEAR(valley.nearest({ 0.0, 0.2 }).distance, 0.2 * std::sqrt(0.5), 1e-15);
@@ -121,7 +121,7 @@ TEST(Surface, ClosedHasItsSignEverywhereWhicheverWayItRuns)
     for (int k = 0; k < 30; ++k) {
       const Vec2 x = chance.vector<2>(2.5);
       const Brute brute = brute_nearest(line, x);
-      const Nearest nearest = surface.nearest(x);
+      const Nearest<2> nearest = surface.nearest(x);
       RC_ASSERT(std::abs(std::abs(nearest.distance) - brute.distance) < 1e-12);
       RC_ASSERT(std::abs(nearest.normal.norm() - 1.0) < 1e-12);
       if (brute.distance < 1e-9)
@@ -141,7 +141,7 @@ TEST(Surface, OfManySegmentsIsTheSameAsOfFew)
       const double y = chance(ground.front()[0] - 0.5, ground.back()[0] + 0.5), above = chance(-1.0, 1.0);
       const Vec2 x(y, height_at(ground, y) + above);
       const Brute brute = brute_nearest(ground, x);
-      const Nearest nearest = surface.nearest(x);
+      const Nearest<2> nearest = surface.nearest(x);
       RC_ASSERT(std::isinf(nearest.distance) == brute.at_end);
       if (!brute.at_end)
         RC_ASSERT(std::abs(nearest.distance - std::copysign(brute.distance, above)) < 1e-12);

@@ -15,7 +15,7 @@ namespace geocontainer_mpm::contact::testing {
 struct Field {
   mpm::Grid<2> grid;
   mpm::Particles<2> particles;
-  std::vector<ContactPoints> points;
+  std::vector<ContactPoints<2>> points;
   std::shared_ptr<const material::Law<2>> law;
   Vec2 gravity = Vec2::Zero();
 
@@ -78,11 +78,11 @@ private:
 };
 
 /// A step of both. `last`: length of the step before, s.
-inline ContactSums step(Field& a, Field& b, FieldContact& contact, double friction, double last, double dt)
+inline ContactSums<2> step(Field& a, Field& b, FieldContact& contact, double friction, double last, double dt)
 {
   a.to_grid(0.5 * (last + dt));
   b.to_grid(0.5 * (last + dt));
-  const ContactSums sums = contact.solve(a.side(), b.side(), friction, 0.5 * (last + dt), dt);
+  const ContactSums<2> sums = contact.solve(a.side(), b.side(), friction, 0.5 * (last + dt), dt);
   a.from_grid(dt);
   b.from_grid(dt);
   return sums;

@@ -29,8 +29,8 @@ struct Scene {
   Vec2 gravity = Vec2::Zero();
   std::vector<Vec2> places = {};
   double last = 0.0;
-  contact::ContactSolver solver{};
-  contact::ContactImpulses impulses{};
+  contact::ContactSolver<2> solver{};
+  contact::ContactImpulses<2> impulses{};
 
   void step(double dt)
   {
@@ -42,7 +42,7 @@ struct Scene {
     mpm::sheet_to_grid<2>({}, sheet.nodes(), mpm::Part::all, gravity, grid, sheet.strains_with_grid());
     const double kick = 0.5 * (last + dt);
     mpm::testing::apply_forces(grid, kick, 0.0);
-    std::vector<contact::Anchor> anchors;
+    std::vector<contact::Anchor<2>> anchors;
     for (std::size_t k = 0; k < held.size(); ++k)
       anchors.push_back({ sheet.node(held[k]), places[k] });
     solver.solve({}, {}, anchors, kick, dt, grid, impulses);

@@ -22,8 +22,8 @@ namespace geocontainer_mpm::contact {
 
 /// One side of a contact.
 struct ContactField {
-  mpm::Grid<2>* grid;                        ///< updated by the forces of this step
-  const std::vector<ContactPoints>* points;  ///< all that moves with it: bodies, also those in a sheet, and sheets
+  mpm::Grid<2>* grid;                           ///< updated by the forces of this step
+  const std::vector<ContactPoints<2>>* points;  ///< all that moves with it: bodies, also those in a sheet, and sheets
 };
 
 class FieldContact {
@@ -34,7 +34,7 @@ public:
   /// step's forces acted, s; `dt`: time until the next positions, s. In the sums `impulse` is that on `b` (`a` feels
   /// the opposite), the energies are those of both, and `skipped` is 1 when they share no node. The material of more
   /// than two fields: every pair in turn, in a fixed order.
-  ContactSums solve(const ContactField& a, const ContactField& b, double friction, double kick, double dt);
+  ContactSums<2> solve(const ContactField& a, const ContactField& b, double friction, double kick, double dt);
 
 private:
   /// A node at which both fields have mass.
@@ -59,9 +59,9 @@ private:
 
   void find_nodes(const mpm::Grid<2>& a, const mpm::Grid<2>& b);
   template <class Reach>
-  void add(std::size_t side, const ContactPoints& set, std::size_t p, const Vec2& x, const Reach& reach);
+  void add(std::size_t side, const ContactPoints<2>& set, std::size_t p, const Vec2& x, const Reach& reach);
   void gather(std::size_t side, const ContactField& field);
-  Nearest separation(const Node& node, double reach, double tiny);
+  Nearest<2> separation(const Node& node, double reach, double tiny);
   void fill_cloud(std::uint32_t first, Cloud& cloud) const;
 
   mpm::Shape shape_;

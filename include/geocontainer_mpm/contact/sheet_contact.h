@@ -41,7 +41,7 @@ public:
   // In this order, with others of the same fields in between: see ContactSolver. Both grids have the same origin,
   // counts and cell, and are updated by the forces of this step. Points keep their number from step to step.
   /// Finds what touches. `dt`: time until the next positions, s.
-  void begin(const ContactPoints& points, const mpm::Grid<2>& point_grid, const ClosedSheet& sheet,
+  void begin(const ContactPoints<2>& points, const mpm::Grid<2>& point_grid, const ClosedSheet& sheet,
              const mpm::Grid<2>& sheet_grid, double dt);
   bool empty() const { return contacts_.empty(); }
   /// Adds the nodes of the grids that impulses reach, each once, on the points' side and on the sheet's.
@@ -84,7 +84,7 @@ private:
   struct Foot {
     std::size_t segment = 0;
     double fraction = 0.0;  ///< from the segment's start to its end
-    Nearest seen;
+    Nearest<2> seen;
   };
 
   void lay_out(const ClosedSheet& sheet, double reach, const mpm::Grid<2>& grid);

@@ -1,7 +1,7 @@
 #pragma once
-/// A rigid surface in plane strain: a polyline, open or closed, whose free side is on the left walking along it (y to
-/// the right, z up). Steel or bed is on the right: a closed line is a solid with the sense of a clock's hands, and a
-/// hole (a drum, say) against it.
+/// A rigid surface's section: a polyline in the y-z plane, open or closed, whose free side is on the left walking along
+/// it (y to the right, z up). Steel or bed is on the right: a closed line is a solid with the sense of a clock's hands,
+/// and a hole (a drum, say) against it. Motion of rigid bodies is in that plane as well, in three dimensions too.
 
 #include <cstddef>
 #include <vector>
@@ -11,10 +11,26 @@
 namespace geocontainer_mpm::contact {
 
 /// Nearest point of a surface, seen from some point.
+template <int Dim>
 struct Nearest {
   double distance;  ///< signed, m: positive on the free side; infinite beyond the ends of an open line
-  Vec2 normal;      ///< of the surface there, unit, into the free side
+  Vec<Dim> normal;  ///< of the surface there, unit, into the free side
 };
+
+/// What a vector has in the section: its y and z.
+template <class V>
+Vec2 in_section(const Eigen::MatrixBase<V>& v)
+{
+  return v.template tail<2>();
+}
+/// The vector with another part in the section.
+template <class V>
+Vec<V::SizeAtCompileTime> with_section(const Eigen::MatrixBase<V>& v, const Vec2& section)
+{
+  Vec<V::SizeAtCompileTime> result = v;
+  result.template tail<2>() = section;
+  return result;
+}
 
 class Surface {
 public:
@@ -24,7 +40,7 @@ public:
   const std::vector<Vec2>& line() const { return line_; }
   bool closed() const { return closed_; }
   std::size_t segments() const { return length_.size(); }
-  Nearest nearest(const Vec2& point) const;
+  Nearest<2> nearest(const Vec2& point) const;
 
 private:
   /// Consecutive segments and the box around them: what is further than the best so far is not looked at.
@@ -32,7 +48,7 @@ private:
     std::size_t begin, end;
     Vec2 lower, upper;
   };
-  void look_at(const Chunk& chunk, const Vec2& point, double& best, Nearest& result) const;
+  void look_at(const Chunk& chunk, const Vec2& point, double& best, Nearest<2>& result) const;
 
   std::vector<Vec2> line_;
   bool closed_;
@@ -48,7 +64,8 @@ inline Vec2 left_normal(const Vec2& tangent)
 }
 
 /// Rotation about x through `pivot`, then a shift: x = pivot + R(angle) (X - pivot) + shift, angle positive from y
-/// towards z. Stores no history: any chain of motions ends in the exact pose of the last.
+/// towards z. Stores no history: any chain of motions ends in the exact pose of the last. What it moves is given in the
+/// section or in space; in space x stays as it is.
 struct RigidPose {
   double cosine = 1.0, sine = 0.0;
   Vec2 pivot = Vec2::Zero();  ///< in the reference position, m
@@ -58,8 +75,29 @@ struct RigidPose {
   static RigidPose motion(double angle_rad, const Vec2& pivot, const Vec2& shift);
   Vec2 turn(const Vec2& v) const { return { cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1] }; }
   Vec2 turn_back(const Vec2& v) const { return { cosine * v[0] + sine * v[1], cosine * v[1] - sine * v[0] }; }
-  Vec2 apply(const Vec2& reference) const { return pivot + turn(reference - pivot) + shift; }
-  Vec2 invert(const Vec2& current) const { return pivot + turn_back(current - pivot - shift); }
+  Vec2 apply(const Vec2& reference) const { return pivot + turn(Vec2(reference - pivot)) + shift; }
+  Vec2 invert(const Vec2& current) const { return pivot + turn_back(Vec2(current - pivot - shift)); }
+
+  template <class V>
+  auto turn(const Eigen::MatrixBase<V>& v) const
+  {
+    return with_section(v, turn(in_section(v)));
+  }
+  template <class V>
+  auto turn_back(const Eigen::MatrixBase<V>& v) const
+  {
+    return with_section(v, turn_back(in_section(v)));
+  }
+  template <class V>
+  auto apply(const Eigen::MatrixBase<V>& reference) const
+  {
+    return with_section(reference, apply(in_section(reference)));
+  }
+  template <class V>
+  auto invert(const Eigen::MatrixBase<V>& current) const
+  {
+    return with_section(current, invert(in_section(current)));
+  }
 };
 
 }  // namespace geocontainer_mpm::contact
