@@ -76,7 +76,7 @@ Failure find_culprit(const std::string& name, const mpm::Particles<2>& particles
                             : nullptr;
     if (cause)
       return { fmt::format("particle {} of {} {}", particles.id[p], name, cause),
-               x.allFinite() ? x : Vec2(Vec2::Zero()), 0.0 };
+               x.allFinite() ? in_barge_frame(x) : Vec3(Vec3::Zero()), 0.0 };
   }
   return {};
 }
@@ -182,7 +182,7 @@ Failure Model::fastest(bool sheets_too) const
       if (!(speed > fastest))
         continue;
       fastest = speed;
-      failure.position_m = { particles.position[0][p], particles.position[1][p] };
+      failure.position_m = in_barge_frame(Vec2(particles.position[0][p], particles.position[1][p]));
       failure.reason = fmt::format("particle {} of {} is fastest, at {:.3g} m/s", particles.id[p], name, speed);
     }
   };
@@ -209,16 +209,16 @@ Failure Model::distortion() const
     if (volume < least_body_volume * start)
       return { fmt::format("{} is squeezed to {:.2g} of its volume: it is too soft for what is on it", body.name,
                            volume / start),
-               body.position(worst), 0.0 };
+               in_barge_frame(body.position(worst)), 0.0 };
     if (volume > most_body_volume * start)
       return { fmt::format("{} has swollen to {:.3g} times its volume", body.name, volume / start),
-               body.position(worst), 0.0 };
+               in_barge_frame(body.position(worst)), 0.0 };
   }
   for (std::size_t t = 0; t < now_.tractions.size(); ++t)
     if (const std::optional<std::uint32_t> owner = now_.tractions[t].torn()) {
       const Body& body = now_.bodies[traction_body_[t]];
       return { fmt::format("the boundary of {} is torn at particle {}, and a traction with it", body.name, *owner),
-               body.position(body.row[*owner]), 0.0 };
+               in_barge_frame(body.position(body.row[*owner])), 0.0 };
     }
   return {};
 }

@@ -27,28 +27,41 @@ double soil_volume(const Model& model)
 }
 
 struct Extent {
-  Vec2 lower = Vec2::Constant(1e300), upper = -lower;
+  Vec3 lower = Vec3::Constant(1e300), upper = -lower;
 
   void add(const mpm::Particles<2>& particles)
   {
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Vec2 x(particles.position[0][p], particles.position[1][p]);
+      const Vec3 x = in_barge_frame(Vec2(particles.position[0][p], particles.position[1][p]));
       lower = lower.cwiseMin(x);
       upper = upper.cwiseMax(x);
     }
   }
+
+  void put_into(ContainerState& state) const
+  {
+    state.length_m = upper[0] - lower[0];
+    state.width_m = upper[1] - lower[1];
+    state.height_m = upper[2] - lower[2];
+  }
 };
+
+/// In plane strain particles keep yy, zz, yz, xx.
+SymmetricTensor barge_stress(const mpm::Particles<2>& particles, std::size_t p)
+{
+  const auto s = [&](std::size_t k) { return particles.stress[k][p]; };
+  return { s(3), s(0), s(1), 0.0, 0.0, s(2) };
+}
 
 }  // namespace
 
 ReleaseWatch::ReleaseWatch(const SceneDescription& scene)
     : hung_up_after_s_(scene.outcome.hung_up_after_s), watched_(scene.geotextiles.size())
 {
-  if (scene.hull && !scene.geotextiles.empty()) {
+  if (scene.hull && !scene.geotextiles.empty())
     hull_.emplace(scene.hull->hinge_m, scene.hull->port_section_m, "hull");
-    for (Watched& watched : watched_)
-      watched.outcome = Outcome::waiting;
-  }
+  for (ContainerStatus& watched : watched_)
+    watched.outcome = hull_ ? Outcome::waiting : Outcome::none;
 }
 
 void ReleaseWatch::observe(const Model& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
@@ -57,7 +70,7 @@ void ReleaseWatch::observe(const Model& model, double time_s, const barge::Openi
     initial_volume_ = soil_volume(model);
     for (std::size_t s = 0; s < watched_.size(); ++s)
       if (model.sheets()[s].inside)
-        watched_[s].initial_volume = volume_of(model.bodies()[*model.sheets()[s].inside]);
+        watched_[s].soil_volume_initial = volume_of(model.bodies()[*model.sheets()[s].inside]);
     for (const Body& body : model.bodies())
       held_.push_back(body.held);
   }
@@ -76,39 +89,40 @@ void ReleaseWatch::open_episodes(const Model& model, double time_s)
     if (!held_[b] || model.bodies()[b].held)
       continue;
     held_[b] = false;
-    for (Watched& watched : watched_)
-      watched.episodes.push_back({ model.bodies()[b].name, time_s, watched.current, 0.0, time_s });
+    for (ContainerStatus& watched : watched_)
+      watched.episodes.push_back({ model.bodies()[b].name, time_s, watched.current_tension_n_per_m, 0.0, time_s });
   }
 }
 
-void ReleaseWatch::measure(const ModelSheet& what, double time_s, Watched& watched)
+void ReleaseWatch::measure(const ModelSheet& what, double time_s, ContainerStatus& watched)
 {
   const geotextile::Sheet& sheet = what.sheet;
   sheet.gauge_tension(gauge_);
   const auto largest = std::max_element(gauge_.begin(), gauge_.end());
-  watched.current = std::max(0.0, *largest);
-  watched.elongation = std::max(watched.elongation, sheet.largest_strain());
+  watched.current_tension_n_per_m = std::max(0.0, *largest);
+  watched.elongation_max = std::max(watched.elongation_max, sheet.largest_strain());
   const geotextile::Utilisation used = what.strength.utilisation(gauge_);
-  watched.used = { std::max(watched.used.sheet, used.sheet), std::max(watched.used.seam, used.seam) };
+  watched.peak_utilisation_sheet = std::max(watched.peak_utilisation_sheet, used.sheet);
+  watched.peak_utilisation_seam = std::max(watched.peak_utilisation_seam, used.seam);
   watched.ruptures = sheet.ruptures();
   if (watched.rupture_time_s < 0.0 && watched.ruptures > 0) {
     watched.rupture_time_s = time_s;
-    watched.rupture_position = sheet.rupture_place();
+    watched.rupture_position_m = in_barge_frame(sheet.rupture_place());
   }
   if (!watched.episodes.empty() && *largest > watched.episodes.back().peak_n_per_m) {
     watched.episodes.back().peak_n_per_m = *largest;
     watched.episodes.back().peak_time_s = time_s;
   }
-  if (*largest > watched.peak) {
+  if (*largest > watched.peak_tension_n_per_m) {
     const auto segment = static_cast<std::size_t>(largest - gauge_.begin());
-    watched.peak = *largest;
-    watched.peak_time_s = time_s;
-    watched.peak_position = 0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment)));
+    watched.peak_tension_n_per_m = *largest;
+    watched.peak_tension_time_s = time_s;
+    watched.peak_tension_position_m = in_barge_frame(0.5 * (sheet.node(segment) + sheet.node(sheet.end_of(segment))));
   }
 }
 
 void ReleaseWatch::judge(const ModelSheet& sheet, double time_s, const barge::OpeningAngles& opening,
-                         double still_for_s, Watched& watched) const
+                         double still_for_s, ContainerStatus& watched) const
 {
   if (sheet.held || watched.outcome == Outcome::released ||
       (watched.outcome == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))
@@ -128,7 +142,8 @@ Outcome ReleaseWatch::outcome() const
   if (!hull_)
     return Outcome::none;
   const auto any = [this](Outcome outcome) {
-    return std::any_of(watched_.begin(), watched_.end(), [outcome](const Watched& w) { return w.outcome == outcome; });
+    return std::any_of(watched_.begin(), watched_.end(),
+                       [outcome](const ContainerStatus& w) { return w.outcome == outcome; });
   };
   for (const Outcome outcome : { Outcome::hung_up, Outcome::releasing, Outcome::waiting })
     if (any(outcome))
@@ -140,35 +155,34 @@ StatusFrame ReleaseWatch::status(const Model& model) const
 {
   StatusFrame status;
   status.outcome = outcome();
-  for (const Watched& watched : watched_) {
+  for (const ContainerStatus& watched : watched_) {
     if (status.outcome == Outcome::released)
       status.release_time_s = std::max(status.release_time_s, watched.release_time_s);
-    status.current_tension_n_per_m = std::max(status.current_tension_n_per_m, watched.current);
-    status.elongation_max = std::max(status.elongation_max, watched.elongation);
-    status.peak_utilisation_sheet = std::max(status.peak_utilisation_sheet, watched.used.sheet);
-    status.peak_utilisation_seam = std::max(status.peak_utilisation_seam, watched.used.seam);
+    status.current_tension_n_per_m = std::max(status.current_tension_n_per_m, watched.current_tension_n_per_m);
+    status.elongation_max = std::max(status.elongation_max, watched.elongation_max);
+    status.peak_utilisation_sheet = std::max(status.peak_utilisation_sheet, watched.peak_utilisation_sheet);
+    status.peak_utilisation_seam = std::max(status.peak_utilisation_seam, watched.peak_utilisation_seam);
     status.ruptures += watched.ruptures;
     if (watched.ruptures > 0 && (status.rupture_time_s < 0.0 || watched.rupture_time_s < status.rupture_time_s)) {
       status.rupture_time_s = watched.rupture_time_s;
-      status.rupture_position_m = watched.rupture_position;
+      status.rupture_position_m = watched.rupture_position_m;
     }
-    if (watched.peak <= status.peak_tension_n_per_m)
+    if (watched.peak_tension_n_per_m <= status.peak_tension_n_per_m)
       continue;
-    status.peak_tension_n_per_m = watched.peak;
-    status.peak_tension_time_s = watched.peak_time_s;
-    status.peak_tension_position_m = watched.peak_position;
+    status.peak_tension_n_per_m = watched.peak_tension_n_per_m;
+    status.peak_tension_time_s = watched.peak_tension_time_s;
+    status.peak_tension_position_m = watched.peak_tension_position_m;
   }
-  status.soil_volume_m2 = soil_volume(model);
-  status.soil_volume_initial_m2 = initial_volume_;
+  status.soil_volume = soil_volume(model);
+  status.soil_volume_initial = initial_volume_;
 
   Extent extent;
   for (const Body& body : model.bodies())
     extent.add(body.particles);
   for (const ModelSheet& sheet : model.sheets())
     extent.add(sheet.sheet.nodes());
-  status.centroid_m = model.centroid();
-  status.width_m = extent.upper[0] - extent.lower[0];
-  status.height_m = extent.upper[1] - extent.lower[1];
+  status.centroid_m = in_barge_frame(model.centroid());
+  extent.put_into(status);
   for (std::size_t s = 0; s < watched_.size(); ++s)
     if (model.sheets()[s].inside)
       status.containers.push_back(container(model, s));
@@ -179,29 +193,16 @@ ContainerStatus ReleaseWatch::container(const Model& model, std::size_t sheet) c
 {
   const ModelSheet& around = model.sheets()[sheet];
   const Body& body = model.bodies()[*around.inside];
-  const Watched& watched = watched_[sheet];
-  ContainerStatus status;
+  ContainerStatus status = watched_[sheet];
   status.name = around.name;
-  status.outcome = watched.outcome;
-  status.release_time_s = watched.release_time_s;
-  status.peak_tension_n_per_m = watched.peak;
-  status.peak_tension_time_s = watched.peak_time_s;
-  status.peak_tension_position_m = watched.peak_position;
-  status.current_tension_n_per_m = watched.current;
-  status.elongation_max = watched.elongation;
-  status.peak_utilisation_sheet = watched.used.sheet;
-  status.peak_utilisation_seam = watched.used.seam;
-  status.soil_volume_m2 = volume_of(body);
-  status.soil_volume_initial_m2 = watched.initial_volume;
-  status.episodes = watched.episodes;
+  status.soil_volume = volume_of(body);
   Extent extent;
   extent.add(body.particles);
   extent.add(around.sheet.nodes());
-  status.width_m = extent.upper[0] - extent.lower[0];
-  status.height_m = extent.upper[1] - extent.lower[1];
+  extent.put_into(status);
   double mass = 0.0;
   for (std::size_t p = 0; p < body.particles.size(); ++p) {
-    status.centroid_m += body.own_mass(p) * body.position(p);
+    status.centroid_m += body.own_mass(p) * in_barge_frame(body.position(p));
     mass += body.own_mass(p);
   }
   status.centroid_m /= mass;
@@ -222,10 +223,9 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     soil.volume.resize(n);
     for (std::size_t p = 0; p < n; ++p) {
       const std::size_t row = particles.id[p];  // order of creation, so that a row is one particle in every frame
-      soil.position[row] = { particles.position[0][p], particles.position[1][p] };
-      soil.velocity[row] = { particles.velocity[0][p], particles.velocity[1][p] };
-      for (std::size_t k = 0; k < 4; ++k)
-        soil.stress[row][k] = particles.stress[k][p];
+      soil.position[row] = in_barge_frame(Vec2(particles.position[0][p], particles.position[1][p]));
+      soil.velocity[row] = in_barge_frame(Vec2(particles.velocity[0][p], particles.velocity[1][p]));
+      soil.stress[row] = barge_stress(particles, p);
       soil.volume[row] = particles.volume[p];
     }
     frame.soil.push_back(std::move(soil));
@@ -237,8 +237,8 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     geotextile.name = enclosing.name;
     geotextile.closed = sheet.closed();
     for (std::size_t i = 0; i < sheet.nodes().size(); ++i) {
-      geotextile.node.push_back(sheet.node(i));
-      geotextile.velocity.emplace_back(sheet.nodes().velocity[0][i], sheet.nodes().velocity[1][i]);
+      geotextile.node.push_back(in_barge_frame(sheet.node(i)));
+      geotextile.velocity.push_back(in_barge_frame(Vec2(sheet.nodes().velocity[0][i], sheet.nodes().velocity[1][i])));
     }
     geotextile.tension = sheet.tension();
     sheet.gauge_tension(geotextile.gauge_tension);
@@ -252,8 +252,8 @@ void fill_frame(const Model& model, const SceneDescription& scene, const std::ve
     BoundaryFrame boundary;
     boundary.name = body.name();
     for (std::size_t p = 0; p < body.size(); ++p)
-      boundary.position.push_back(body.reference(p));
-    boundary.force_n_per_m = boundary_force[b];
+      boundary.position.push_back(in_barge_frame(body.reference(p)));
+    boundary.force = in_barge_frame(boundary_force[b]);
     boundary.closed = body.closed();
     frame.boundary.push_back(std::move(boundary));
   }

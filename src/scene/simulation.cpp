@@ -1,5 +1,7 @@
 #include "geocontainer_mpm/scene/simulation.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "simulation_state.h"
@@ -21,6 +23,12 @@ const char* to_string(Outcome outcome)
       break;
   }
   return "none";
+}
+
+std::string place(const Vec3& position_m, int dimensions)
+{
+  const std::string section = fmt::format("y {:.3f} m, z {:.3f} m", position_m.y(), position_m.z());
+  return dimensions == 3 ? fmt::format("x {:.3f} m, {}", position_m.x(), section) : section;
 }
 
 Simulation::Simulation(const SceneDescription& scene, int threads) : state_(std::make_unique<State>(scene, threads)) {}
@@ -168,8 +176,8 @@ Frame Simulation::frame() const
   const std::vector<contact::RigidPose> pose = s.motion.poses(frame.time_s, frame.opening);
   for (std::size_t b = 0; b < frame.boundary.size(); ++b) {
     frame.boundary[b].angle_rad = s.motion.angle(b, frame.time_s, frame.opening);
-    for (Vec2& x : frame.boundary[b].position)
-      x = pose[b].apply(x);
+    for (Vec3& x : frame.boundary[b].position)
+      x = in_barge_frame(pose[b].apply(x.tail<2>()));
   }
   return frame;
 }

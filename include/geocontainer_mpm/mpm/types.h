@@ -12,6 +12,19 @@ template <int Dim>
 using Mat = Eigen::Matrix<double, Dim, Dim>;
 
 using Vec2 = Vec<2>;
+using Vec3 = Vec<3>;
 using Mat2 = Mat<2>;
+
+/// A vector of a model of either dimension in the barge frame; one of the plane-strain section has x = 0.
+template <typename Vector>
+Vec3 in_barge_frame(const Eigen::MatrixBase<Vector>& vector)
+{
+  constexpr int dim = Vector::RowsAtCompileTime;
+  static_assert(dim == 2 || dim == 3);
+  if constexpr (dim == 3)
+    return vector;
+  else
+    return { 0.0, vector[0], vector[1] };
+}
 
 }  // namespace geocontainer_mpm
