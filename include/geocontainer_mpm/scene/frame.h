@@ -64,7 +64,7 @@ struct GeotextileFrame {
 struct BoundaryFrame {
   std::string name;                 ///< `hull_port`, `hull_starboard`, or the surface's key
   std::vector<Vec3> position;       ///< boundary particles, m; of a line in order along the section
-  std::vector<Triangle> triangles;  ///< none: a line
+  std::vector<Triangle> triangles;  ///< counter-clockwise seen from the bodies; none: a line
   bool closed = false;              ///< a line joined from its last particle to the first
   double angle_rad = 0.0;           ///< rotation about hinge or pivot: a hull half opening positive, else about +x
   Vec3 force = Vec3::Zero();        ///< what the bodies press on it, mean over the output interval, N/m or N
