@@ -123,7 +123,7 @@ Start start_of(const Simulation& simulation)
   for (const scene::SoilFrame& soil : frame.soil) {
     start.particles.push_back(soil.position.size());
     start.volume.push_back(volume_of(soil));
-    for (const Vec2& v : soil.velocity)
+    for (const Vec3& v : soil.velocity)
       initial = std::max(initial, v.norm());
   }
   double stressed = 0.0;  // sigma / (rho c) of what is stressed at the start
@@ -134,7 +134,7 @@ Start start_of(const Simulation& simulation)
     for (const scene::SoilFrame& soil : frame.soil)
       for (const auto& stress : soil.stress)
         stressed =
-            std::max(stressed, (std::abs(stress[0]) + std::abs(stress[1])) / std::sqrt(modulus * m.density_kg_per_m3));
+            std::max(stressed, (std::abs(stress[1]) + std::abs(stress[2])) / std::sqrt(modulus * m.density_kg_per_m3));
   }
   double heaviest = 0.0;
   for (const auto& [name, material] : scene.materials)
@@ -156,7 +156,7 @@ double depth_behind(const scene::BoundaryFrame& boundary, const Vec2& x, double 
   const std::size_t n = boundary.position.size(), pieces = boundary.closed ? n : n - 1;
   double nearest = far, depth = 0.0;
   for (std::size_t i = 0; i < pieces; ++i) {
-    const Vec2 &a = boundary.position[i], &b = boundary.position[(i + 1) % n];
+    const Vec2 a = boundary.position[i].tail<2>(), b = boundary.position[(i + 1) % n].tail<2>();
     const Vec2 along = b - a;
     const double length = along.norm();
     if (!(length > 0.0))
@@ -174,12 +174,12 @@ double depth_behind(const scene::BoundaryFrame& boundary, const Vec2& x, double 
 }
 
 std::string look_at_points(const SceneDescription& scene, const Frame& frame, const Start& start,
-                           const std::string& name, const std::vector<Vec2>& position,
-                           const std::vector<Vec2>& velocity, bool touches, double speed_factor)
+                           const std::string& name, const std::vector<Vec3>& position,
+                           const std::vector<Vec3>& velocity, bool touches, double speed_factor)
 {
   const double dx = scene.grid.cell_size_m;
   for (std::size_t p = 0; p < position.size(); ++p) {
-    const Vec2 &x = position[p], &v = velocity[p];
+    const Vec2 x = position[p].tail<2>(), v = velocity[p].tail<2>();
     const auto where = [&] { return fmt::format("point {} of {} at [{:.4g}, {:.4g}]", p, name, x[0], x[1]); };
     if (!x.allFinite() || !v.allFinite())
       return where() + " is not finite";
@@ -289,8 +289,8 @@ std::uint64_t run(Simulation& simulation, double budget, Verdict& verdict)
       verdict.what = failure.reason.empty() ? Class::failed : Class::stopped;
       verdict.reason = failure.reason.empty()
                            ? "stopped without a reason"
-                           : fmt::format("{} at [{:.4g}, {:.4g}], t = {:.4g} s", failure.reason, failure.position_m[0],
-                                         failure.position_m[1], failure.time_s);
+                           : fmt::format("{} at [{:.4g}, {:.4g}], t = {:.4g} s", failure.reason, failure.position_m.y(),
+                                         failure.position_m.z(), failure.time_s);
       return digest;
     }
     const bool spent = static_cast<double>(counters.steps) * (static_cast<double>(counters.particles) + 60.0) > budget;

@@ -65,7 +65,11 @@ std::string place(const Json& position)
       text += (text.empty() ? "" : "; ") + place(one);
     return text;
   }
-  return fmt::format("y {:.2f} m, z {:.2f} m", position.at(0).get<double>(), position.at(1).get<double>());
+  const char* axis = position.size() == 3 ? "xyz" : "yz";
+  std::string text;
+  for (const Json& coordinate : position)
+    text += fmt::format("{}{} {:.2f} m", text.empty() ? "" : ", ", *axis++, coordinate.get<double>());
+  return text;
 }
 
 std::string words(const Json& value)
@@ -175,8 +179,12 @@ std::string table(const Json& s)
     row("largest elongation", quantity(s.at("geotextile_elongation_max"), 100.0, 2, "%"));
   }
   row("centroid", place(s.at("container_centroid_m")));
-  row("width, height",
-      quantity(s.at("container_width_m"), 1.0, 2, "m") + ", " + quantity(s.at("container_height_m"), 1.0, 2, "m"));
+  const std::string section =
+      quantity(s.at("container_width_m"), 1.0, 2, "m") + ", " + quantity(s.at("container_height_m"), 1.0, 2, "m");
+  if (s.contains("container_length_m"))
+    row("length, width, height", quantity(s.at("container_length_m"), 1.0, 2, "m") + ", " + section);
+  else
+    row("width, height", section);
   row("soil volume change", quantity(s.at("soil_volume_change"), 100.0, 2, "%"));
   row("energy balance error", quantity(s.at("energy").at("relative_balance_error"), 100.0, 2, "%"));
   for (const Json& flag : s.value("flags", Json::array()))

@@ -110,10 +110,11 @@ private:
   double last_s_ = -1.0;
 };
 
-std::string describe(const scene::Failure& failure)
+std::string describe(const Simulation& simulation)
 {
-  return fmt::format("the solver stopped at {:.4f} s at y {:.3f} m, z {:.3f} m: {}", failure.time_s,
-                     failure.position_m.x(), failure.position_m.y(), failure.reason);
+  const scene::Failure& failure = simulation.failure();
+  return fmt::format("the solver stopped at {:.4f} s at {}: {}", failure.time_s,
+                     scene::place(failure.position_m, simulation.status().dimensions), failure.reason);
 }
 
 /// From now to the end, whatever kind of end it is. A stopped run keeps no last frame: its state is not to be trusted.
@@ -141,7 +142,7 @@ End advance_to_end(Simulation& simulation, Keeper& keeper, const StopRequest& st
       case Advance::waiting:  // cannot be: the opening is known to the end
         return { exit_solver_stopped, fmt::format("no opening is known beyond {:.4f} s", simulation.time_s()) };
       case Advance::stopped:
-        return { exit_solver_stopped, describe(simulation.failure()) };
+        return { exit_solver_stopped, describe(simulation) };
     }
     bar.show(simulation.time_s());
   }

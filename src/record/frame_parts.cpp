@@ -1,5 +1,7 @@
 #include "frame_parts.h"
 
+#include <algorithm>
+
 namespace geocontainer_mpm::record {
 
 namespace {
@@ -51,15 +53,40 @@ std::vector<std::int32_t> part_of_row(const Parts& parts)
   return result;
 }
 
-void Segments::add(std::int64_t first_row, std::int64_t rows, bool closed)
+void Pieces::add_line(std::int64_t first_row, std::int64_t size, bool closed)
 {
-  const std::int64_t pieces = closed ? rows : rows - 1;
-  for (std::int64_t i = 0; i < pieces; ++i)
-    pairs.insert(pairs.end(), { static_cast<std::int32_t>(first_row + i),
-                                static_cast<std::int32_t>(first_row + (i + 1 < rows ? i + 1 : 0)) });
+  const std::int64_t pieces = closed ? size : size - 1;
+  for (std::int64_t i = 0; i < pieces; ++i) {
+    const auto from = static_cast<std::int32_t>(first_row + i);
+    const auto to = static_cast<std::int32_t>(first_row + (i + 1 < size ? i + 1 : 0));
+    rows.insert(rows.end(), { from, to });
+    if (corners == 3)
+      rows.push_back(to);
+  }
+  add_part(static_cast<std::size_t>(pieces));
+}
+
+void Pieces::add_triangles(std::int64_t first_row, const std::vector<scene::Triangle>& triangles)
+{
+  for (const scene::Triangle& triangle : triangles)
+    for (const std::uint32_t corner : triangle)
+      rows.push_back(static_cast<std::int32_t>(first_row + corner));
+  add_part(triangles.size());
+}
+
+void Pieces::add_part(std::size_t pieces)
+{
   first.push_back(total);
-  count.push_back(pieces);
-  total += pieces;
+  count.push_back(static_cast<std::int64_t>(pieces));
+  total += count.back();
+}
+
+bool has_directions(const std::vector<const scene::GeotextileFrame*>& sheets)
+{
+  return std::all_of(sheets.begin(), sheets.end(), [](const scene::GeotextileFrame* sheet) {
+    const std::size_t pieces = sheet->tension.size();
+    return sheet->warp_tension.size() == pieces && sheet->weft_tension.size() == pieces;
+  });
 }
 
 }  // namespace geocontainer_mpm::record

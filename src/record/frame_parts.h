@@ -19,7 +19,7 @@ struct Parts {
 };
 
 template <typename Part>
-Parts parts_of(const std::vector<const Part*>& parts, std::vector<Vec2> Part::*field)
+Parts parts_of(const std::vector<const Part*>& parts, std::vector<Vec3> Part::*field)
 {
   Parts result;
   for (const Part* part : parts) {
@@ -40,25 +40,40 @@ std::vector<const scene::BoundaryFrame*> surfaces_of(const scene::Frame& frame);
 /// For each row the index of its part.
 std::vector<std::int32_t> part_of_row(const Parts& parts);
 
-/// Straight pieces between rows of the shared arrays: along each part, and from its last row to its first where it is
-/// closed. Pieces [first, first + count) belong to the part of that index.
-struct Segments {
-  std::vector<std::int32_t> pairs;  ///< rows at both ends, piece by piece
+/// What parts are made of between rows of the shared arrays: the straight pieces of a line, also from its last row to
+/// its first where it is closed, or triangles. Pieces [first, first + count) belong to the part of that index. Among
+/// triangles a line's piece is one whose last two corners are the same row, so that all have as many.
+struct Pieces {
+  int corners = 2;
+  std::vector<std::int32_t> rows;  ///< at the corners, piece by piece
   std::vector<std::int64_t> first;
   std::vector<std::int64_t> count;
   std::int64_t total = 0;
 
-  void add(std::int64_t first_row, std::int64_t rows, bool closed);
+  void add_line(std::int64_t first_row, std::int64_t size, bool closed);
+  void add_triangles(std::int64_t first_row, const std::vector<scene::Triangle>& triangles);
+
+private:
+  void add_part(std::size_t pieces);
 };
 
 /// Of sheets and boundaries.
 template <typename Part>
-Segments segments_of(const std::vector<const Part*>& all, const Parts& parts)
+Pieces pieces_of(const std::vector<const Part*>& all, const Parts& parts)
 {
-  Segments segments;
+  Pieces pieces;
+  for (const Part* part : all)
+    if (!part->triangles.empty())
+      pieces.corners = 3;
   for (std::size_t i = 0; i < all.size(); ++i)
-    segments.add(parts.first[i], parts.count[i], all[i]->closed);
-  return segments;
+    if (all[i]->triangles.empty())
+      pieces.add_line(parts.first[i], parts.count[i], all[i]->closed);
+    else
+      pieces.add_triangles(parts.first[i], all[i]->triangles);
+  return pieces;
 }
+
+/// Whether every piece of all sheets has a tension along warp and weft.
+bool has_directions(const std::vector<const scene::GeotextileFrame*>& sheets);
 
 }  // namespace geocontainer_mpm::record

@@ -46,10 +46,9 @@ void write_count(hid_t object, const char* name, std::int64_t value)
   write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, dataspace({}), &value);
 }
 
-void write_point(hid_t object, const char* name, const Vec2& point)
+void write_point(hid_t object, const char* name, const Vec3& point)
 {
-  const std::array<double, 3> row{ 0.0, point[0], point[1] };
-  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dataspace({ 3 }), row.data());
+  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dataspace({ 3 }), point.data());
 }
 
 void write_numbers(hid_t object, const char* name, const std::vector<double>& values)
@@ -100,14 +99,13 @@ void write_array(hid_t parent, const char* name, hid_t type, hid_t memory_type, 
   write_text_attribute(set, "units", units);
 }
 
-/// Rows of three: the barge frame's x (zero in the plane-strain slice), y and z, so that viewers place it right.
 template <typename Part>
-std::vector<double> rows_of_three(const std::vector<const Part*>& parts, std::vector<Vec2> Part::*field)
+std::vector<double> rows_of_three(const std::vector<const Part*>& parts, std::vector<Vec3> Part::*field)
 {
   std::vector<double> rows;
   for (const Part* part : parts)
-    for (const Vec2& point : part->*field)
-      rows.insert(rows.end(), { 0.0, point[0], point[1] });
+    for (const Vec3& point : part->*field)
+      rows.insert(rows.end(), point.begin(), point.end());
   return rows;
 }
 
@@ -138,6 +136,12 @@ void write_indices(hid_t group, const char* name, const std::vector<std::int32_t
     write_array(group, name, H5T_STD_I32LE, H5T_NATIVE_INT32, { values.size() / columns, columns }, values.data(), "1");
 }
 
+/// Then volumes are in m^3 instead of m^2, forces in N instead of N/m, energies in J instead of J/m.
+bool is_3d(const scene::Frame& frame)
+{
+  return frame.status.dimensions == 3;
+}
+
 void write_soil(hid_t frame_group, const scene::Frame& frame)
 {
   const auto bodies = soil_of(frame);
@@ -149,13 +153,13 @@ void write_soil(hid_t frame_group, const scene::Frame& frame)
   write_vectors(group, "position", H5T_IEEE_F64LE, rows_of_three(bodies, &scene::SoilFrame::position), "m");
   write_vectors(group, "velocity", H5T_IEEE_F32LE, rows_of_three(bodies, &scene::SoilFrame::velocity), "m/s");
 
-  // XDMF's and VTK's order of a symmetric tensor: xx xy xz yy yz zz; x is out of plane.
+  // XDMF's and VTK's order of a symmetric tensor: xx xy xz yy yz zz.
   std::vector<double> stress;
   for (const scene::SoilFrame* body : bodies)
-    for (const auto& [yy, zz, yz, xx] : body->stress)
-      stress.insert(stress.end(), { xx, 0.0, 0.0, yy, yz, zz });
+    for (const auto& [xx, yy, zz, xy, xz, yz] : body->stress)
+      stress.insert(stress.end(), { xx, xy, xz, yy, yz, zz });
   write_array(group, "stress", H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, { stress.size() / 6, 6 }, stress.data(), "Pa");
-  write_scalars(group, "volume", joined(bodies, &scene::SoilFrame::volume), "m^2");
+  write_scalars(group, "volume", joined(bodies, &scene::SoilFrame::volume), is_3d(frame) ? "m^3" : "m^2");
   write_indices(group, "body", part_of_row(parts), 1);
 }
 
@@ -167,7 +171,7 @@ void write_geotextile(hid_t frame_group, const scene::Frame& frame)
   const Parts parts = parts_of(sheets, &scene::GeotextileFrame::node);
   const Handle group = subgroup(frame_group, "geotextile");
   write_parts(group, parts);
-  const Segments segments = segments_of(sheets, parts);
+  const Pieces pieces = pieces_of(sheets, parts);
   std::vector<double> gauge_length, strength, seam_strength;
   std::vector<std::int64_t> closed;
   for (const scene::GeotextileFrame* sheet : sheets) {
@@ -177,8 +181,8 @@ void write_geotextile(hid_t frame_group, const scene::Frame& frame)
     seam_strength.push_back(sheet->seam_strength_n_per_m);
   }
   write_counts(group, "closed", closed);
-  write_counts(group, "first_segment", segments.first);
-  write_counts(group, "segment_count", segments.count);
+  write_counts(group, "first_segment", pieces.first);
+  write_counts(group, "segment_count", pieces.count);
   write_numbers(group, "gauge_length_m", gauge_length);
   write_numbers(group, "strength_n_per_m", strength);
   write_numbers(group, "seam_strength_n_per_m", seam_strength);
@@ -186,11 +190,16 @@ void write_geotextile(hid_t frame_group, const scene::Frame& frame)
   write_vectors(group, "velocity", H5T_IEEE_F32LE, rows_of_three(sheets, &scene::GeotextileFrame::velocity), "m/s");
   write_scalars(group, "tension", joined(sheets, &scene::GeotextileFrame::tension), "N/m");
   write_scalars(group, "gauge_tension", joined(sheets, &scene::GeotextileFrame::gauge_tension), "N/m");
-  write_indices(group, "connectivity", segments.pairs, 2);
+  if (has_directions(sheets)) {
+    write_scalars(group, "warp_tension", joined(sheets, &scene::GeotextileFrame::warp_tension), "N/m");
+    write_scalars(group, "weft_tension", joined(sheets, &scene::GeotextileFrame::weft_tension), "N/m");
+  }
+  write_indices(group, "connectivity", pieces.rows, static_cast<hsize_t>(pieces.corners));
   write_indices(group, "sheet", part_of_row(parts), 1);
 }
 
-void write_boundary(hid_t frame_group, const char* name, const std::vector<const scene::BoundaryFrame*>& boundaries)
+void write_boundary(hid_t frame_group, const char* name, const std::vector<const scene::BoundaryFrame*>& boundaries,
+                    const char* force_unit)
 {
   if (boundaries.empty())
     return;
@@ -202,13 +211,14 @@ void write_boundary(hid_t frame_group, const char* name, const std::vector<const
   for (const scene::BoundaryFrame* boundary : boundaries) {
     closed.push_back(boundary->closed ? 1 : 0);
     angle.push_back(boundary->angle_rad);
-    force.insert(force.end(), { 0.0, boundary->force_n_per_m[0], boundary->force_n_per_m[1] });
+    force.insert(force.end(), boundary->force.begin(), boundary->force.end());
   }
   write_counts(group, "closed", closed);
   write_vectors(group, "position", H5T_IEEE_F64LE, rows_of_three(boundaries, &scene::BoundaryFrame::position), "m");
-  write_indices(group, "connectivity", segments_of(boundaries, parts).pairs, 2);
+  const Pieces pieces = pieces_of(boundaries, parts);
+  write_indices(group, "connectivity", pieces.rows, static_cast<hsize_t>(pieces.corners));
   write_array(group, "angle", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, { angle.size() }, angle.data(), "rad");
-  write_vectors(group, "force", H5T_IEEE_F64LE, force, "N/m");
+  write_vectors(group, "force", H5T_IEEE_F64LE, force, force_unit);
 }
 
 /// One group for each probe, empty arrays where it took no sample since the frame before.
@@ -231,24 +241,29 @@ void write_probes(hid_t frame_group, const std::vector<scene::ProbeFrame>& probe
   }
 }
 
-void write_energy(hid_t frame_group, const scene::EnergyFrame& energy)
+void write_energy(hid_t frame_group, const scene::Frame& frame)
 {
+  const scene::EnergyFrame& energy = frame.energy;
   const Handle group = subgroup(frame_group, "energy");
-  write_number(group, "kinetic_j_per_m", energy.kinetic);
-  write_number(group, "elastic_j_per_m", energy.elastic);
-  write_number(group, "potential_j_per_m", energy.potential);
-  write_number(group, "dissipated_j_per_m", energy.dissipated);
-  write_number(group, "dissipated_plastic_j_per_m", energy.dissipated_plastic);
-  write_number(group, "dissipated_contact_j_per_m", energy.dissipated_contact);
-  write_number(group, "dissipated_transfer_j_per_m", energy.dissipated_transfer);
-  write_number(group, "dissipated_rupture_j_per_m", energy.dissipated_rupture);
-  write_number(group, "dissipated_water_j_per_m", energy.dissipated_water);
-  write_number(group, "work_in_j_per_m", energy.work_in);
+  const auto write = [&](const char* name, double value) {
+    write_number(group, (std::string(name) + (is_3d(frame) ? "_j" : "_j_per_m")).c_str(), value);
+  };
+  write("kinetic", energy.kinetic);
+  write("elastic", energy.elastic);
+  write("potential", energy.potential);
+  write("dissipated", energy.dissipated);
+  write("dissipated_plastic", energy.dissipated_plastic);
+  write("dissipated_contact", energy.dissipated_contact);
+  write("dissipated_transfer", energy.dissipated_transfer);
+  write("dissipated_rupture", energy.dissipated_rupture);
+  write("dissipated_water", energy.dissipated_water);
+  write("work_in", energy.work_in);
   write_number(group, "relative_balance_error", energy.relative_balance_error);
 }
 
-void write_status(hid_t frame_group, const scene::StatusFrame& status)
+void write_status(hid_t frame_group, const scene::Frame& frame)
 {
+  const scene::StatusFrame& status = frame.status;
   const Handle group = subgroup(frame_group, "status");
   write_text_attribute(group, "outcome", scene::to_string(status.outcome));
   write_number(group, "release_time_s", status.release_time_s);
@@ -261,8 +276,9 @@ void write_status(hid_t frame_group, const scene::StatusFrame& status)
   write_point(group, "centroid_m", status.centroid_m);
   write_number(group, "width_m", status.width_m);
   write_number(group, "height_m", status.height_m);
-  write_number(group, "soil_volume_m2", status.soil_volume_m2);
-  write_number(group, "soil_volume_initial_m2", status.soil_volume_initial_m2);
+  write_number(group, "length_m", status.length_m);
+  write_number(group, is_3d(frame) ? "soil_volume_m3" : "soil_volume_m2", status.soil_volume);
+  write_number(group, is_3d(frame) ? "soil_volume_initial_m3" : "soil_volume_initial_m2", status.soil_volume_initial);
 }
 
 }  // namespace
@@ -283,7 +299,7 @@ void write_text(hid_t parent, const char* name, const std::string& text)
 
 std::size_t room_for(const scene::Frame& frame)
 {
-  // Per row at most three doubles, nine floats and three indices; the groups' own data is about 20 kB.
+  // Per row or triangle at most three doubles, nine floats and three indices; the groups' own data is about 20 kB.
   constexpr std::size_t row_bytes = 3 * 8 + 9 * 4 + 3 * 4 + 16;
   constexpr std::size_t part_bytes = 256, group_bytes = 48 * 1024;
   std::size_t rows = 0, names = 0;
@@ -294,9 +310,9 @@ std::size_t room_for(const scene::Frame& frame)
   for (const scene::SoilFrame& body : frame.soil)
     add(body.position.size(), body.name);
   for (const scene::GeotextileFrame& sheet : frame.geotextile)
-    add(sheet.node.size(), sheet.name);
+    add(sheet.node.size() + sheet.triangles.size(), sheet.name);
   for (const scene::BoundaryFrame& boundary : frame.boundary)
-    add(boundary.position.size(), boundary.name);
+    add(boundary.position.size() + boundary.triangles.size(), boundary.name);
   const std::size_t parts = frame.soil.size() + frame.geotextile.size() + frame.boundary.size();
   // Each column is a data set of its own, with a header and a link; each probe a group.
   constexpr std::size_t column_bytes = 1024, probe_bytes = 4096;
@@ -313,6 +329,7 @@ Handle write_unlinked_frame(hid_t file, const scene::Frame& frame)
 {
   Handle group(H5Gcreate_anon(file, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "cannot create a frame");
   write_number(group, "time_s", frame.time_s);
+  write_count(group, "dimensions", frame.status.dimensions);
   write_count(group, "stamp_ns", frame.stamp_ns);
   write_count(group, "step", static_cast<std::int64_t>(frame.step));
   write_number(group, "dt_s", frame.dt_s);
@@ -323,11 +340,12 @@ Handle write_unlinked_frame(hid_t file, const scene::Frame& frame)
   write_array(group, "time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &frame.time_s, "s", true);
   write_soil(group, frame);
   write_geotextile(group, frame);
-  write_boundary(group, "hull", hull_of(frame));
-  write_boundary(group, "surface", surfaces_of(frame));
+  const char* force_unit = is_3d(frame) ? "N" : "N/m";
+  write_boundary(group, "hull", hull_of(frame), force_unit);
+  write_boundary(group, "surface", surfaces_of(frame), force_unit);
   write_probes(group, frame.probes);
-  write_energy(group, frame.energy);
-  write_status(group, frame.status);
+  write_energy(group, frame);
+  write_status(group, frame);
   return group;
 }
 

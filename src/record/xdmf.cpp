@@ -76,12 +76,12 @@ public:
     text_ += fmt::format("     <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", points);
   }
 
-  void begin_lines(const char* group, std::int64_t segments)
+  void begin_pieces(const char* group, const Pieces& pieces)
   {
+    const char* type = pieces.corners == 3 ? "Triangle" : "Polyline\" NodesPerElement=\"2";
     begin_grid(group);
-    text_ += fmt::format("     <Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"{}\">\n",
-                         segments);
-    item("connectivity", "Int", 4, fmt::format("{} 2", segments));
+    text_ += fmt::format("     <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n", type, pieces.total);
+    item("connectivity", "Int", 4, fmt::format("{} {}", pieces.total, pieces.corners));
     text_ += "     </Topology>\n";
   }
 
@@ -121,13 +121,14 @@ private:
   std::string frame_location_, group_, text_;
 };
 
-void add_lines(EntryBuilder& builder, const char* group, const std::vector<const scene::BoundaryFrame*>& boundaries)
+void add_boundaries(EntryBuilder& builder, const char* group,
+                    const std::vector<const scene::BoundaryFrame*>& boundaries)
 {
   const Parts parts = parts_of(boundaries, &scene::BoundaryFrame::position);
-  const std::int64_t segments = segments_of(boundaries, parts).total;
-  if (segments == 0)
+  const Pieces pieces = pieces_of(boundaries, parts);
+  if (pieces.total == 0)
     return;
-  builder.begin_lines(group, segments);
+  builder.begin_pieces(group, pieces);
   builder.geometry("position", parts.total);
   builder.end();
 }
@@ -150,16 +151,20 @@ std::string xdmf_entry(const scene::Frame& frame, const std::string& frame_path,
   if (const auto sheets = geotextile_of(frame); !sheets.empty()) {
     const Parts parts = parts_of(sheets, &scene::GeotextileFrame::node);
     const std::int64_t n = parts.total;
-    const std::int64_t segments = segments_of(sheets, parts).total;
-    builder.begin_lines("geotextile", segments);
+    const Pieces pieces = pieces_of(sheets, parts);
+    builder.begin_pieces("geotextile", pieces);
     builder.geometry("node", n);
     builder.attribute("velocity", "Vector", "Node", n, 3);
-    builder.attribute("tension", "Scalar", "Cell", segments, 1);
-    builder.attribute("gauge_tension", "Scalar", "Cell", segments, 1);
+    builder.attribute("tension", "Scalar", "Cell", pieces.total, 1);
+    builder.attribute("gauge_tension", "Scalar", "Cell", pieces.total, 1);
+    if (has_directions(sheets)) {
+      builder.attribute("warp_tension", "Scalar", "Cell", pieces.total, 1);
+      builder.attribute("weft_tension", "Scalar", "Cell", pieces.total, 1);
+    }
     builder.end();
   }
-  add_lines(builder, "hull", hull_of(frame));
-  add_lines(builder, "surface", surfaces_of(frame));
+  add_boundaries(builder, "hull", hull_of(frame));
+  add_boundaries(builder, "surface", surfaces_of(frame));
   return fmt::format(
       "   <Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">\n    <Time Value=\"{}\"/>\n{}   "
       "</Grid>\n",

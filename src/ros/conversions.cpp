@@ -6,19 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "outline.h"
+
 namespace geocontainer_mpm::ros_bridge {
 namespace {
 
 constexpr double degrees_per_radian = 57.29577951308232;
 
-Eigen::Vector3d into_view(const Vec2& section, const View& view)
+geometry_msgs::Point to_point(const Vec3& in_barge, const View& view)
 {
-  return view.pose * Eigen::Vector3d(0.0, section.x(), section.y());
-}
-
-geometry_msgs::Point to_point(const Vec2& section, const View& view)
-{
-  const Eigen::Vector3d position = into_view(section, view);
+  const Vec3 position = view.pose * in_barge;
   geometry_msgs::Point point;
   point.x = position.x();
   point.y = position.y();
@@ -26,9 +23,9 @@ geometry_msgs::Point to_point(const Vec2& section, const View& view)
   return point;
 }
 
-bool finite(const Vec2& vector)
+bool finite(const Vec3& vector)
 {
-  return std::isfinite(vector.x()) && std::isfinite(vector.y());
+  return vector.allFinite();
 }
 
 bool finite(double value)
@@ -36,7 +33,7 @@ bool finite(double value)
   return std::isfinite(value);
 }
 
-bool finite(const std::array<double, 4>& stress)
+bool finite(const scene::SymmetricTensor& stress)
 {
   return std::all_of(stress.begin(), stress.end(), [](double value) { return std::isfinite(value); });
 }
@@ -49,11 +46,11 @@ bool all_finite(const Values& values)
 
 bool finite(const scene::StatusFrame& status)
 {
-  return all_finite(std::array<double, 10>{ status.release_time_s, status.peak_tension_n_per_m,
-                                            status.peak_tension_time_s, status.current_tension_n_per_m,
-                                            status.elongation_max, status.width_m, status.height_m,
-                                            status.soil_volume_m2, status.centroid_m.x(), status.centroid_m.y() }) &&
-         finite(status.peak_tension_position_m);
+  return all_finite(std::array<double, 9>{ status.release_time_s, status.peak_tension_n_per_m,
+                                           status.peak_tension_time_s, status.current_tension_n_per_m,
+                                           status.elongation_max, status.length_m, status.width_m, status.height_m,
+                                           status.soil_volume }) &&
+         finite(status.centroid_m) && finite(status.peak_tension_position_m);
 }
 
 std_msgs::Header header_of(const View& view)
@@ -151,13 +148,9 @@ geometry_msgs::PolygonStamped to_container_shape(const scene::GeotextileFrame& s
 {
   geometry_msgs::PolygonStamped shape;
   shape.header = header_of(view);
-  std::vector<Vec2> outline = sheet.node;
-  // A polygon closes itself: an open sheet goes there and back, so that its ends are not joined.
-  if (!sheet.closed && sheet.node.size() > 2)
-    outline.insert(outline.end(), sheet.node.rbegin() + 1, sheet.node.rend() - 1);
-  shape.polygon.points.reserve(outline.size());
-  for (const Vec2& node : outline) {
-    const Eigen::Vector3f position = into_view(node, view).cast<float>();
+  shape.polygon.points.reserve(sheet.node.size());
+  for (const Vec3& node : container_outline(sheet)) {
+    const Eigen::Vector3f position = (view.pose * node).cast<float>();
     geometry_msgs::Point32 point;
     point.x = position.x();
     point.y = position.y();
@@ -173,8 +166,10 @@ GeotextileForces to_geotextile_forces(const scene::GeotextileFrame& sheet, const
   forces.header = header_of(view);
   forces.name = sheet.name;
   forces.nodes.reserve(sheet.node.size());
-  for (const Vec2& node : sheet.node)
+  for (const Vec3& node : sheet.node)
     forces.nodes.push_back(to_point(node, view));
+  for (const scene::Triangle& triangle : sheet.triangles)
+    forces.triangles.insert(forces.triangles.end(), triangle.begin(), triangle.end());
   forces.tension = sheet.gauge_tension;
   forces.utilisation.reserve(sheet.gauge_tension.size());
   for (const double tension : sheet.gauge_tension)
@@ -204,13 +199,13 @@ sensor_msgs::PointCloud2 to_soil_cloud(const scene::Frame& frame, const View& vi
   sensor_msgs::PointCloud2Iterator<float> field(cloud, "x");
   for (const scene::SoilFrame& soil : frame.soil)
     for (std::size_t p = 0; p < soil.position.size(); p += step, ++field) {
-      const Eigen::Vector3f position = into_view(soil.position[p], view).cast<float>();
-      const std::array<double, 4>& stress = soil.stress[p];  // yy, zz, yz, xx
+      const Eigen::Vector3f position = (view.pose * soil.position[p]).cast<float>();
+      const scene::SymmetricTensor& stress = soil.stress[p];
       field[0] = position.x();
       field[1] = position.y();
       field[2] = position.z();
       field[3] = static_cast<float>(soil.velocity[p].norm());
-      field[4] = static_cast<float>((stress[0] + stress[1] + stress[3]) / 3.0);
+      field[4] = static_cast<float>((stress[0] + stress[1] + stress[2]) / 3.0);
     }
   return cloud;
 }
@@ -218,8 +213,8 @@ sensor_msgs::PointCloud2 to_soil_cloud(const scene::Frame& frame, const View& vi
 std::string status_sentence(const Progress& progress)
 {
   if (progress.state == RunState::stopped)
-    return fmt::format("The prediction stopped at {:.2f} s at y {:.2f} m, z {:.2f} m: {}", progress.failure.time_s,
-                       progress.failure.position_m.x(), progress.failure.position_m.y(), progress.failure.reason);
+    return fmt::format("The prediction stopped at {:.2f} s at {}: {}", progress.failure.time_s,
+                       scene::place(progress.failure.position_m, progress.status.dimensions), progress.failure.reason);
   if (progress.state == RunState::waiting_for_clock)
     return "Waiting for /clock (use_sim_time is set)";
   if (progress.state == RunState::waiting_for_opening)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geocontainer_mpm/ros/conversions.h"
+#include "outline.h"
 
 namespace geocontainer_mpm::ros_bridge {
 namespace {
@@ -12,16 +13,24 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double outline_width_m = 0.04;
+constexpr float boundary_alpha = 0.3f;
+const Eigen::Vector3f boundary_colour(0.35f, 0.38f, 0.45f);
 constexpr double legend_height_m = 0.32;
 constexpr double legend_above_hinge_m = 2.4;
 
-geometry_msgs::Point to_point(double x, const Vec2& section)
+geometry_msgs::Point to_point(const Vec3& position)
 {
   geometry_msgs::Point point;
-  point.x = x;
-  point.y = section.x();
-  point.z = section.y();
+  point.x = position.x();
+  point.y = position.y();
+  point.z = position.z();
   return point;
+}
+
+/// A point of a plane-strain section, drawn at x.
+geometry_msgs::Point to_point(double x, const Vec3& section)
+{
+  return to_point({ x, section.y(), section.z() });
 }
 
 std_msgs::ColorRGBA to_colour(const Eigen::Vector3f& rgb, float alpha = 1.0f)
@@ -57,26 +66,48 @@ Marker make_marker(const std::string& name_space, int id, int type, const View& 
   return marker;
 }
 
-/// rviz lights nothing that has a colour per vertex: the shade of a lamp above, to port, is put into the colour.
-float shade(const Vec2& along)
+/// rviz lights nothing that has a colour per vertex: the shade of a lamp is put into the colour. Two edges span the
+/// face.
+float shade(const Vec3& edge, const Vec3& other_edge, const Vec3& to_lamp)
 {
-  const Vec2 normal = Vec2(-along.y(), along.x()).normalized();
-  const Vec2 to_lamp = Vec2(0.4, 1.0).normalized();
-  return along.isZero(0.0) ? 1.0f : static_cast<float>(0.6 + 0.4 * std::abs(normal.dot(to_lamp)));
+  const Vec3 normal = edge.cross(other_edge);
+  return normal.isZero(0.0) ? 1.0f
+                            : static_cast<float>(0.6 + 0.4 * std::abs(normal.normalized().dot(to_lamp.normalized())));
+}
+
+std_msgs::ColorRGBA colour_of_piece(const scene::GeotextileFrame& sheet, std::size_t piece, float shading)
+{
+  return to_colour(utilisation_colour(sheet.gauge_tension[piece] / sheet.seam_strength_n_per_m) * shading);
+}
+
+Marker geotextile_surface(const scene::GeotextileFrame& sheet, int id, const View& view)
+{
+  const Vec3 to_lamp(0.3, 0.4, 1.0);  // above, to port, a little ahead: ends and sides differ
+  Marker marker = make_marker("geotextile", id, Marker::TRIANGLE_LIST, view);
+  marker.points.reserve(3 * sheet.triangles.size());
+  marker.colors.reserve(3 * sheet.triangles.size());
+  for (std::size_t i = 0; i < sheet.triangles.size(); ++i) {
+    const auto corner = [&](std::size_t k) -> const Vec3& { return sheet.node[sheet.triangles[i][k]]; };
+    const float shading = shade(corner(1) - corner(0), corner(2) - corner(0), to_lamp);
+    for (std::size_t k = 0; k < 3; ++k)
+      marker.points.push_back(to_point(corner(k)));
+    marker.colors.insert(marker.colors.end(), 3, colour_of_piece(sheet, i, shading));
+  }
+  return marker;
 }
 
 Marker geotextile_ribbon(const scene::GeotextileFrame& sheet, int id, const View& view)
 {
+  const Vec3 to_lamp(0.0, 0.4, 1.0);
   Marker marker = make_marker("geotextile", id, Marker::TRIANGLE_LIST, view);
   const std::size_t nodes = sheet.node.size();
   const std::size_t segments = sheet.gauge_tension.size();  // of an open sheet one less than nodes
   marker.points.reserve(6 * segments);
   marker.colors.reserve(6 * segments);
   for (std::size_t i = 0; i < segments; ++i) {
-    const Vec2& from = sheet.node[i];
-    const Vec2& to = sheet.node[(i + 1) % nodes];
-    const double utilisation = sheet.gauge_tension[i] / sheet.seam_strength_n_per_m;
-    const std_msgs::ColorRGBA colour = to_colour(utilisation_colour(utilisation) * shade(to - from));
+    const Vec3& from = sheet.node[i];
+    const Vec3& to = sheet.node[(i + 1) % nodes];
+    const std_msgs::ColorRGBA colour = colour_of_piece(sheet, i, shade(to - from, Vec3::UnitX(), to_lamp));
     const std::array<geometry_msgs::Point, 4> corners = { to_point(0.0, from), to_point(0.0, to),
                                                           to_point(-view.width_m, from), to_point(-view.width_m, to) };
     for (const std::size_t corner : { 0u, 1u, 2u, 2u, 1u, 3u }) {
@@ -87,11 +118,38 @@ Marker geotextile_ribbon(const scene::GeotextileFrame& sheet, int id, const View
   return marker;
 }
 
-Marker boundary_outline(const scene::BoundaryFrame& boundary, int id, const View& view)
+Marker outline_marker(int id, const View& view)
 {
   Marker marker = make_marker("boundary", id, Marker::LINE_LIST, view);
   marker.scale.x = outline_width_m;
-  marker.color = to_colour({ 0.35f, 0.38f, 0.45f });
+  marker.color = to_colour(boundary_colour);
+  return marker;
+}
+
+/// See-through, as the hull is around the container, and of one colour, so that rviz lights it.
+Marker boundary_surface(const scene::BoundaryFrame& boundary, int id, const View& view)
+{
+  Marker marker = make_marker("boundary_surface", id, Marker::TRIANGLE_LIST, view);
+  marker.color = to_colour(boundary_colour, boundary_alpha);
+  marker.points.reserve(3 * boundary.triangles.size());
+  for (const scene::Triangle& triangle : boundary.triangles)
+    for (const std::uint32_t corner : triangle)
+      marker.points.push_back(to_point(boundary.position[corner]));
+  return marker;
+}
+
+Marker boundary_edges(const scene::BoundaryFrame& boundary, int id, const View& view)
+{
+  Marker marker = outline_marker(id, view);
+  for (const auto& edge : sharp_edges(boundary))
+    for (const std::uint32_t end : edge)
+      marker.points.push_back(to_point(boundary.position[end]));
+  return marker;
+}
+
+Marker boundary_outline(const scene::BoundaryFrame& boundary, int id, const View& view)
+{
+  Marker marker = outline_marker(id, view);
   const std::size_t count = boundary.position.size();
   const std::size_t pieces = boundary.closed ? count : count - 1;
   for (const double x : { 0.0, -view.width_m })
@@ -152,11 +210,17 @@ visualization_msgs::MarkerArray to_markers(const scene::Frame& frame, const Prog
   visualization_msgs::MarkerArray array;
   int id = 0;
   for (const scene::GeotextileFrame& sheet : frame.geotextile)
-    array.markers.push_back(geotextile_ribbon(sheet, id++, view));
+    array.markers.push_back(sheet.triangles.empty() ? geotextile_ribbon(sheet, id++, view)
+                                                    : geotextile_surface(sheet, id++, view));
   id = 0;
-  for (const scene::BoundaryFrame& boundary : frame.boundary)
-    if (boundary.position.size() > 1)
+  for (const scene::BoundaryFrame& boundary : frame.boundary) {
+    if (!boundary.triangles.empty()) {
+      array.markers.push_back(boundary_surface(boundary, id, view));
+      array.markers.push_back(boundary_edges(boundary, id++, view));
+    } else if (boundary.position.size() > 1) {
       array.markers.push_back(boundary_outline(boundary, id++, view));
+    }
+  }
   array.markers.push_back(legend(progress, view));
   return array;
 }

@@ -150,7 +150,7 @@ void SolverThread::run()
       turn();
     } catch (const std::exception& error) {
       // The solver reports its own failures; this is what nobody foresaw, such as memory running out.
-      failure_ = { std::string("unexpected: ") + error.what(), Vec2::Zero(), simulation_.time_s() };
+      failure_ = { std::string("unexpected: ") + error.what(), Vec3::Zero(), simulation_.time_s() };
       state_ = RunState::stopped;
       wait(idle_wait_ns);
     }

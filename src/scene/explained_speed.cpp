@@ -126,7 +126,7 @@ double fastest_wall(const Model<Dim>& model, const StepInput& step)
   for (std::size_t b = 0; b < model.boundaries().size(); ++b) {
     // The way that a rigid motion makes is convex over the body, so that a corner of its box goes furthest.
     const contact::BoundaryBody<Dim>& body = model.boundaries()[b];
-    const Vec2 lower = in_section<Dim>(body.reference_lower()), upper = in_section<Dim>(body.reference_upper());
+    const Vec2 lower = in_section(body.reference_lower()), upper = in_section(body.reference_upper());
     for (const Vec2& corner : { lower, upper, Vec2(lower[0], upper[1]), Vec2(upper[0], lower[1]) })
       way = std::max(way, (step.end[b].apply(corner) - step.start[b].apply(corner)).norm());
   }

@@ -11,7 +11,7 @@ void set_k0_stress(const BodyDescription& description, double density, const std
 {
   constexpr std::size_t vertical_slot = z_axis<Dim>, out_of_plane = 3;  // of plane strain
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x = in_section<Dim>(particles.position_of(p));
+    const Vec2 x = in_section(particles.position_of(p));
     const double top = top_at(shape, x[0]), depth = std::max(0.0, top - x[1]);
     // gravity_z < 0: compression
     const double vertical = water ? gravity_z * water->overburden(density, x[1], top) : density * gravity_z * depth;
@@ -28,7 +28,7 @@ void set_hydrostatic(const material::Parameters& material, const std::vector<Vec
 {
   const double rho = material.density_kg_per_m3, bulk = material.bulk_modulus_pa;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x = in_section<Dim>(particles.position_of(p));
+    const Vec2 x = in_section(particles.position_of(p));
     const double top = top_at(shape, x[0]), depth = std::max(0.0, top - x[1]);
     const double pressure = water ? -gravity_z * water->overburden(rho, x[1], top) : -rho * gravity_z * depth;
     const double compression = std::exp(pressure / bulk);  // rho / rho0
@@ -44,13 +44,13 @@ void set_velocity(const Vec2& velocity, double spin, const std::optional<Velocit
   Vec2 middle = Vec2::Zero();
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    middle += particles.mass[p] * in_section<Dim>(particles.position_of(p));
+    middle += particles.mass[p] * in_section(particles.position_of(p));
     mass += particles.mass[p];
   }
   middle /= mass;
   constexpr std::size_t y = y_axis<Dim>, z = z_axis<Dim>;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 x = in_section<Dim>(particles.position_of(p));
+    const Vec2 x = in_section(particles.position_of(p));
     Vec2 v = velocity + spin * Vec2(middle[1] - x[1], x[0] - middle[0]);
     if (wave)
       v += wave->amplitude_m_per_s * std::sin(wave->wave_number_rad_per_m.dot(x) + wave->phase_rad);

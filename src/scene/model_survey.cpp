@@ -80,7 +80,7 @@ Failure find_culprit(const std::string& name, const mpm::Particles<Dim>& particl
                             : nullptr;
     if (cause)
       return { fmt::format("particle {} of {} {}", particles.id[p], name, cause),
-               x.allFinite() ? in_space<3>(x) : Vec3(Vec3::Zero()), 0.0 };
+               x.allFinite() ? in_barge_frame(x) : Vec3(Vec3::Zero()), 0.0 };
   }
   return {};
 }
@@ -192,7 +192,7 @@ Failure Model<Dim>::fastest(bool sheets_too) const
       if (!(speed > fastest))
         continue;
       fastest = speed;
-      failure.position_m = in_space<3>(particles.position_of(p));
+      failure.position_m = in_barge_frame(particles.position_of(p));
       failure.reason = fmt::format("particle {} of {} is fastest, at {:.3g} m/s", particles.id[p], name, speed);
     }
   };
@@ -220,16 +220,16 @@ Failure Model<Dim>::distortion() const
     if (volume < least_body_volume * start)
       return { fmt::format("{} is squeezed to {:.2g} of its volume: it is too soft for what is on it", body.name,
                            volume / start),
-               in_space<3>(body.position(worst)), 0.0 };
+               in_barge_frame(body.position(worst)), 0.0 };
     if (volume > most_body_volume * start)
       return { fmt::format("{} has swollen to {:.3g} times its volume", body.name, volume / start),
-               in_space<3>(body.position(worst)), 0.0 };
+               in_barge_frame(body.position(worst)), 0.0 };
   }
   for (std::size_t t = 0; t < now_.tractions.size(); ++t)
     if (const std::optional<std::uint32_t> owner = now_.tractions[t].torn()) {
       const Body& body = now_.bodies[traction_body_[t]];
       return { fmt::format("the boundary of {} is torn at particle {}, and a traction with it", body.name, *owner),
-               in_space<3>(body.position(body.row[*owner])), 0.0 };
+               in_barge_frame(body.position(body.row[*owner])), 0.0 };
     }
   return {};
 }

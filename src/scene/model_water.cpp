@@ -115,11 +115,11 @@ std::optional<WaterFrame> Model<Dim>::water() const
       weight += mass;
   const double gravity = -constant_gravity_[z_axis<Dim>];
   frame.submerged_share = displaced / volume;
-  frame.buoyancy_n_per_m = gravity * water_->density() * displaced;
-  frame.submerged_weight_n_per_m = gravity * weight - frame.buoyancy_n_per_m;
+  frame.buoyancy = gravity * water_->density() * displaced;
+  frame.submerged_weight = gravity * weight - frame.buoyancy;
   frame.fastest_fall_m_per_s = now_.water.fastest_fall;
-  frame.drag_impulse_n_s_per_m = in_section<Dim>(now_.water.drag_impulse);
-  frame.dissipated_j_per_m = now_.ledger.water;
+  frame.drag_impulse = in_barge_frame(now_.water.drag_impulse);
+  frame.dissipated = now_.ledger.water;
   return frame;
 }
 

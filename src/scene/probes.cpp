@@ -245,8 +245,8 @@ void Probes<Dim>::sample_body(Target& target, const Model<Dim>& model, Row& row)
   // The rotation that turns the start into the present best, by mass; followed over whole turns.
   double along = 0.0, across = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec2 from = in_section<Dim>((*body.start)[particles.id[p]] - start_moment / mass),
-               to = in_section<Dim>(body.position(p) - moment / mass);
+    const Vec2 from = in_section((*body.start)[particles.id[p]] - start_moment / mass),
+               to = in_section(body.position(p) - moment / mass);
     along += body.own_mass(p) * from.dot(to);
     across += body.own_mass(p) * cross(from, to);
   }

@@ -1,7 +1,10 @@
 #include "geocontainer_mpm/scene/simulation.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "fill_frame.h"
 #include "simulation_state.h"
 
 namespace geocontainer_mpm::scene {
@@ -21,6 +24,12 @@ const char* to_string(Outcome outcome)
       break;
   }
   return "none";
+}
+
+std::string place(const Vec3& position_m, int dimensions)
+{
+  const std::string section = fmt::format("y {:.3f} m, z {:.3f} m", position_m.y(), position_m.z());
+  return dimensions == 3 ? fmt::format("x {:.3f} m, {}", position_m.x(), section) : section;
 }
 
 namespace {

@@ -14,9 +14,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json pair(const Vec2& vector)
+/// [y, z] in plane strain, [x, y, z] in 3-D.
+Json components(const Vec3& vector, int dimensions)
 {
-  return Json::array({ vector.x(), vector.y() });
+  return dimensions == 3 ? Json::array({ vector.x(), vector.y(), vector.z() })
+                         : Json::array({ vector.y(), vector.z() });
+}
+
+/// A key of what is per metre of length in plane strain, and whole in 3-D: `buoyancy_n_per_m`, `buoyancy_n`.
+std::string per_metre(const char* key, int dimensions)
+{
+  return std::string(key) + (dimensions == 3 ? "" : "_per_m");
 }
 
 Json rejected_samples(const barge::OpeningSignal& opening)
@@ -39,7 +47,7 @@ Json gaps(const barge::OpeningSignal& opening)
   return list;
 }
 
-Json energy(const EnergyFrame& frame)
+Json energy(const EnergyFrame& frame, int dimensions)
 {
   return { { "kinetic", frame.kinetic },
            { "elastic", frame.elastic },
@@ -53,21 +61,21 @@ Json energy(const EnergyFrame& frame)
            { "work_in", frame.work_in },
            { "unbalanced", frame.unbalanced },
            { "relative_balance_error", frame.relative_balance_error },
-           { "unit", "J/m" } };
+           { "unit", dimensions == 3 ? "J" : "J/m" } };
 }
 
 /// Null in a scene without water.
-Json water(const std::optional<WaterFrame>& frame)
+Json water(const std::optional<WaterFrame>& frame, int dimensions)
 {
   if (!frame)
     return {};
   return { { "level_m", frame->level_m },
            { "submerged_share", frame->submerged_share },
-           { "buoyancy_n_per_m", frame->buoyancy_n_per_m },
-           { "submerged_weight_n_per_m", frame->submerged_weight_n_per_m },
+           { per_metre("buoyancy_n", dimensions), frame->buoyancy },
+           { per_metre("submerged_weight_n", dimensions), frame->submerged_weight },
            { "fastest_fall_m_per_s", frame->fastest_fall_m_per_s },
-           { "drag_impulse_n_s_per_m", pair(frame->drag_impulse_n_s_per_m) },
-           { "dissipated_j_per_m", frame->dissipated_j_per_m } };
+           { per_metre("drag_impulse_n_s", dimensions), components(frame->drag_impulse, dimensions) },
+           { per_metre("dissipated_j", dimensions), frame->dissipated } };
 }
 
 Json skipped(const SkippedCounts& counts)
@@ -176,51 +184,65 @@ Json flags(const EnergyFrame& energy, const Json& volume_change)
   return list;
 }
 
-/// Keys of the sheet; null in a scene without one, and where and when of a peak that has not been.
-void add_geotextile(Json& summary, const SceneDescription& scene, const StatusFrame& status)
-{
-  const bool present = !scene.geotextiles.empty();
-  const bool taut = present && status.peak_tension_n_per_m > 0.0;
-  summary["peak_tension_n_per_m"] = present ? Json(status.peak_tension_n_per_m) : Json();
-  summary["peak_tension_time_s"] = taut ? Json(status.peak_tension_time_s) : Json();
-  summary["peak_tension_position_m"] = taut ? pair(status.peak_tension_position_m) : Json();
-  const double sheet = status.peak_utilisation_sheet, seam = status.peak_utilisation_seam;
-  summary["peak_utilisation"] = present ? Json(std::max(sheet, seam)) : Json();
-  summary["peak_utilisation_sheet"] = present ? Json(sheet) : Json();
-  summary["peak_utilisation_seam"] = present ? Json(seam) : Json();
-  summary["ruptured"] = status.ruptures == 0 ? Json()
-                                             : Json{ { "pieces", status.ruptures },
-                                                     { "time_s", status.rupture_time_s },
-                                                     { "position_m", pair(status.rupture_position_m) } };
-  summary["residual_tension_n_per_m"] = present ? Json(status.current_tension_n_per_m) : Json();
-  summary["geotextile_elongation_max"] = present ? Json(status.elongation_max) : Json();
-}
-
 Json release_time(double time_s)
 {
   return time_s >= 0.0 ? Json(time_s) : Json();
 }
 
-/// What each container did, and its tension before and after others started.
-Json container(const ContainerStatus& status)
+/// Where and when of a peak that has not been are null.
+void add_peak(Json& summary, const ContainerState& state, int dimensions)
 {
-  const bool taut = status.peak_tension_n_per_m > 0.0;
+  const bool taut = state.peak_tension_n_per_m > 0.0;
+  summary["peak_tension_n_per_m"] = state.peak_tension_n_per_m;
+  summary["peak_tension_time_s"] = taut ? Json(state.peak_tension_time_s) : Json();
+  summary["peak_tension_position_m"] = taut ? components(state.peak_tension_position_m, dimensions) : Json();
+  summary["peak_utilisation"] = std::max(state.peak_utilisation_sheet, state.peak_utilisation_seam);
+  summary["peak_utilisation_sheet"] = state.peak_utilisation_sheet;
+  summary["peak_utilisation_seam"] = state.peak_utilisation_seam;
+}
+
+void add_place(Json& summary, const ContainerState& state, int dimensions)
+{
+  summary["container_centroid_m"] = components(state.centroid_m, dimensions);
+  if (dimensions == 3)
+    summary["container_length_m"] = state.length_m;
+  summary["container_width_m"] = state.width_m;
+  summary["container_height_m"] = state.height_m;
+}
+
+Json volume_change(const ContainerState& state)
+{
+  return state.soil_volume_initial > 0.0 ? Json(state.soil_volume / state.soil_volume_initial - 1.0) : Json();
+}
+
+/// Keys of the sheet; null in a scene without one.
+void add_geotextile(Json& summary, const SceneDescription& scene, const StatusFrame& status)
+{
+  Json sheet;
+  add_peak(sheet, status, status.dimensions);
+  sheet["ruptured"] = status.ruptures == 0
+                          ? Json()
+                          : Json{ { "pieces", status.ruptures },
+                                  { "time_s", status.rupture_time_s },
+                                  { "position_m", components(status.rupture_position_m, status.dimensions) } };
+  sheet["residual_tension_n_per_m"] = status.current_tension_n_per_m;
+  sheet["geotextile_elongation_max"] = status.elongation_max;
+  for (const auto& [key, value] : sheet.items())
+    summary[key] = scene.geotextiles.empty() ? Json() : value;
+}
+
+/// What each container did, and its tension before and after others started.
+Json container(const ContainerStatus& status, int dimensions)
+{
   Json one;
   one["name"] = status.name;
   one["outcome"] = to_string(status.outcome);
   one["release_time_s"] = release_time(status.release_time_s);
-  one["peak_tension_n_per_m"] = status.peak_tension_n_per_m;
-  one["peak_tension_time_s"] = taut ? Json(status.peak_tension_time_s) : Json();
-  one["peak_tension_position_m"] = taut ? pair(status.peak_tension_position_m) : Json();
-  one["peak_utilisation"] = std::max(status.peak_utilisation_sheet, status.peak_utilisation_seam);
-  one["peak_utilisation_sheet"] = status.peak_utilisation_sheet;
-  one["peak_utilisation_seam"] = status.peak_utilisation_seam;
+  add_peak(one, status, dimensions);
   one["residual_tension_n_per_m"] = status.current_tension_n_per_m;
   one["geotextile_elongation_max"] = status.elongation_max;
-  one["container_centroid_m"] = pair(status.centroid_m);
-  one["container_width_m"] = status.width_m;
-  one["container_height_m"] = status.height_m;
-  one["soil_volume_change"] = status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0;
+  add_place(one, status, dimensions);
+  one["soil_volume_change"] = volume_change(status);
   one["episodes"] = Json::array();
   for (const TensionEpisode& episode : status.episodes)
     one["episodes"].push_back({ { "started", episode.started },
@@ -232,11 +254,11 @@ Json container(const ContainerStatus& status)
 }
 
 /// The list of containers; where there are several, what is one container's is a list at the top as well.
-void add_containers(Json& summary, const std::vector<ContainerStatus>& containers)
+void add_containers(Json& summary, const StatusFrame& status)
 {
   Json all = Json::array();
-  for (const ContainerStatus& status : containers)
-    all.push_back(container(status));
+  for (const ContainerStatus& one : status.containers)
+    all.push_back(container(one, status.dimensions));
   if (all.size() > 1)
     for (const auto& [key, value] : all[0].items())
       if (summary.contains(key) && key != "soil_volume_change") {
@@ -261,15 +283,12 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   summary["outcome"] = to_string(status.outcome);
   summary["release_time_s"] = release_time(status.release_time_s);
   add_geotextile(summary, scene, status);
-  summary["container_centroid_m"] = pair(status.centroid_m);
-  summary["container_width_m"] = status.width_m;
-  summary["container_height_m"] = status.height_m;
-  summary["soil_volume_m2"] = status.soil_volume_m2;
-  summary["soil_volume_change"] =
-      status.soil_volume_initial_m2 > 0.0 ? Json(status.soil_volume_m2 / status.soil_volume_initial_m2 - 1.0) : Json();
-  add_containers(summary, status.containers);
-  summary["energy"] = energy(simulation.energy());
-  summary["water"] = water(simulation.water());
+  add_place(summary, status, status.dimensions);
+  summary[status.dimensions == 3 ? "soil_volume_m3" : "soil_volume_m2"] = status.soil_volume;
+  summary["soil_volume_change"] = volume_change(status);
+  add_containers(summary, status);
+  summary["energy"] = energy(simulation.energy(), status.dimensions);
+  summary["water"] = water(simulation.water(), status.dimensions);
   summary["flags"] = flags(simulation.energy(), summary["soil_volume_change"]);
   summary["design_rules"] = design_view(simulation, status);
   summary["momentum_error"] = counters.momentum_error;

@@ -40,13 +40,13 @@ Ellipse ellipse(double t)
   return { hanging_z + (resting_z - hanging_z) * fallen, half_width };
 }
 
-Vec2 mapped(const Ellipse& shape, const Vec2& unit)
+Vec3 mapped(const Ellipse& shape, const Vec2& unit)
 {
-  return { shape.half_width * unit[0], shape.z + shape.half_height() * unit[1] };
+  return { 0.0, shape.half_width * unit[0], shape.z + shape.half_height() * unit[1] };
 }
 
 template <typename Map>
-Vec2 rate(double t, Map map)
+auto rate(double t, Map map) -> decltype(map(t))
 {
   const double h = 1e-3;
   return (map(t + h) - map(t - h)) / (2.0 * h);
@@ -61,7 +61,7 @@ scene::SoilFrame sand(double t, int rings)
     soil.position.push_back(map(t));
     soil.velocity.push_back(rate(t, map));
     const double vertical = -1900.0 * 9.81 * ellipse(t).half_height() * (0.97 - unit[1]);
-    soil.stress.push_back({ 0.5 * vertical, vertical, 0.1 * vertical * unit[0], 0.5 * vertical });
+    soil.stress.push_back({ 0.5 * vertical, 0.5 * vertical, vertical, 0.0, 0.0, 0.1 * vertical * unit[0] });
   };
   add(Vec2::Zero());
   for (int ring = 1; ring <= rings; ++ring)
@@ -102,9 +102,9 @@ scene::BoundaryFrame polyline(const char* name, const std::vector<Vec2>& corners
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
     const int pieces = std::max(1, static_cast<int>((corners[k + 1] - corners[k]).norm() / spacing_m));
     for (int i = 0; i < pieces; ++i)
-      result.position.push_back(corners[k] + (corners[k + 1] - corners[k]) * i / pieces);
+      result.position.push_back(in_barge_frame(corners[k] + (corners[k + 1] - corners[k]) * i / pieces));
   }
-  result.position.push_back(corners.back());
+  result.position.push_back(in_barge_frame(corners.back()));
   return result;
 }
 
@@ -117,7 +117,7 @@ scene::BoundaryFrame hull_half(double t, double side)
     corners.emplace_back(c * side * p[0] - s * p[1], s * side * p[0] + c * p[1]);
   scene::BoundaryFrame hull = polyline(side > 0.0 ? "hull_port" : "hull_starboard", corners, 0.05);
   hull.angle_rad = opening_rad(t);
-  hull.force_n_per_m = { side * 4e4, -9e4 * (1.0 - smooth(8.0, release_s, t)) };
+  hull.force = { 0.0, side * 4e4, -9e4 * (1.0 - smooth(8.0, release_s, t)) };
   return hull;
 }
 
@@ -134,13 +134,13 @@ void fill_status(scene::Frame& frame)
   status.current_tension_n_per_m = *std::max_element(tension.begin(), tension.end());
   status.peak_tension_n_per_m = t < release_s ? status.current_tension_n_per_m : 52e3;
   status.peak_tension_time_s = std::min(t, release_s);
-  status.peak_tension_position_m = { 0.0, -6.5 };
+  status.peak_tension_position_m = { 0.0, 0.0, -6.5 };
   status.elongation_max = status.peak_tension_n_per_m / 800e3;
   const Ellipse shape = ellipse(t);
-  status.centroid_m = { 0.0, shape.z };
+  status.centroid_m = { 0.0, 0.0, shape.z };
   status.width_m = 2.0 * shape.half_width;
   status.height_m = 2.0 * shape.half_height();
-  status.soil_volume_m2 = status.soil_volume_initial_m2 = area_m2;
+  status.soil_volume = status.soil_volume_initial = area_m2;
 
   const double weight = 1900.0 * 9.81 * area_m2;
   scene::EnergyFrame& energy = frame.energy;

@@ -112,11 +112,11 @@ private:
   hid_t file_;
 };
 
-std::vector<double> rows(const std::vector<Vec2>& points)
+std::vector<double> rows(const std::vector<Vec3>& points)
 {
   std::vector<double> result;
-  for (const Vec2& point : points)
-    result.insert(result.end(), { 0.0, point[0], point[1] });
+  for (const Vec3& point : points)
+    result.insert(result.end(), point.begin(), point.end());
   return result;
 }
 
@@ -162,8 +162,8 @@ TEST_F(RecorderTest, KeepsEveryFieldOfAFrame)
   EXPECT_EQ(singles(reader.numbers(at + "/soil/volume")), singles(soil.volume));
   const std::vector<double> stress = reader.numbers(at + "/soil/stress");
   ASSERT_EQ(reader.extent(at + "/soil/stress"), (Extent{ soil.stress.size(), 6 }));
-  const auto& [yy, zz, yz, xx] = soil.stress.back();
-  EXPECT_EQ(singles({ stress.end() - 6, stress.end() }), singles({ xx, 0.0, 0.0, yy, yz, zz }));
+  const auto& [xx, yy, zz, xy, xz, yz] = soil.stress.back();
+  EXPECT_EQ(singles({ stress.end() - 6, stress.end() }), singles({ xx, xy, xz, yy, yz, zz }));
 
   const scene::GeotextileFrame& sheet = frame.geotextile.front();
   EXPECT_EQ(reader.numbers(at + "/geotextile/node"), rows(sheet.node));
@@ -176,12 +176,12 @@ TEST_F(RecorderTest, KeepsEveryFieldOfAFrame)
   EXPECT_EQ(pairs.back(), 0.0);  // the last segment closes the sheet
 
   EXPECT_EQ(reader.numbers(at + "/hull/angle"), (std::vector<double>(2, frame.opening.port_rad)));
-  std::vector<double> force = rows({ frame.boundary[0].force_n_per_m, frame.boundary[1].force_n_per_m });
+  std::vector<double> force = rows({ frame.boundary[0].force, frame.boundary[1].force });
   EXPECT_EQ(reader.numbers(at + "/hull/force"), force);
   EXPECT_EQ(reader.numbers(at + "/surface/position"), rows(frame.boundary[2].position));
   EXPECT_EQ(reader.text_attribute(at + "/status", "outcome"), "releasing");
   EXPECT_EQ(reader.number_attribute(at + "/status", "centroid_m"),
-            (std::vector<double>{ 0.0, frame.status.centroid_m[0], frame.status.centroid_m[1] }));
+            rows({ frame.status.centroid_m }));
   EXPECT_EQ(reader.number_attribute(at + "/energy", "kinetic_j_per_m"), std::vector<double>{ frame.energy.kinetic });
 }
 

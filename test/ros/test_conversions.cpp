@@ -18,16 +18,16 @@ scene::Frame small_frame()
   scene::SoilFrame soil;
   soil.name = "sand";
   for (int i = 0; i < 5; ++i) {
-    soil.position.emplace_back(0.1 * i, -1.0 - i);
-    soil.velocity.emplace_back(3.0, -4.0);
-    soil.stress.push_back({ -1000.0 * i, -2000.0 * i, 50.0, -600.0 * i });
+    soil.position.emplace_back(0.0, 0.1 * i, -1.0 - i);
+    soil.velocity.emplace_back(0.0, 3.0, -4.0);
+    soil.stress.push_back({ -600.0 * i, -1000.0 * i, -2000.0 * i, 0.0, 0.0, 50.0 });
     soil.volume.push_back(0.01);
   }
   frame.soil.push_back(soil);
   scene::GeotextileFrame sheet;
   sheet.name = "container";
-  sheet.node = { { -1.0, -2.0 }, { 1.0, -2.0 }, { 0.0, -1.0 } };
-  sheet.velocity.assign(3, Vec2::Zero());
+  sheet.node = { { 0.0, -1.0, -2.0 }, { 0.0, 1.0, -2.0 }, { 0.0, 0.0, -1.0 } };
+  sheet.velocity.assign(3, Vec3::Zero());
   sheet.tension = { 1e3, 2e3, 3e3 };
   sheet.gauge_tension = { 1e4, 2e4, 3e4 };
   sheet.gauge_length_m = 0.5;
@@ -36,7 +36,7 @@ scene::Frame small_frame()
   frame.geotextile.push_back(sheet);
   scene::BoundaryFrame bed;
   bed.name = "bed";
-  bed.position = { { -6.0, -9.3 }, { 0.0, -9.3 }, { 6.0, -9.3 } };
+  bed.position = { { 0.0, -6.0, -9.3 }, { 0.0, 0.0, -9.3 }, { 0.0, 6.0, -9.3 } };
   frame.boundary.push_back(bed);
   return frame;
 }
@@ -51,7 +51,7 @@ Progress small_progress()
   progress.status.outcome = scene::Outcome::releasing;
   progress.status.peak_tension_n_per_m = 3e4;
   progress.status.peak_tension_time_s = 1.25;
-  progress.status.peak_tension_position_m = Vec2(1.0, -2.0);
+  progress.status.peak_tension_position_m = Vec3(0.0, 1.0, -2.0);
   progress.lag_s = 0.4;
   progress.real_time_factor = 3.0;
   return progress;
@@ -119,10 +119,10 @@ TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
   EXPECT_FALSE(status.stopped);
 
   progress.state = RunState::stopped;
-  progress.failure = { "a particle left the grid", Vec2(1.5, -2.0), 2.4 };
+  progress.failure = { "a particle left the grid", Vec3(0.0, 1.5, -2.0), 2.4 };
   status = to_release_status(progress, View());
   EXPECT_TRUE(status.stopped);
-  EXPECT_NE(status.message.find("a particle left the grid"), std::string::npos);
+  EXPECT_NE(status.message.find("at y 1.500 m, z -2.000 m: a particle left the grid"), std::string::npos);
   EXPECT_EQ(status.message.find('\n'), std::string::npos);
 }
 
@@ -152,7 +152,7 @@ TEST(Conversions, MarkersKeepIdsCountsAndLifetimeWhileTheContainerMoves)
 {
   scene::Frame frame = small_frame();
   const visualization_msgs::MarkerArray first = to_markers(frame, small_progress(), turned_view());
-  for (Vec2& node : frame.geotextile[0].node)
+  for (Vec3& node : frame.geotextile[0].node)
     node *= 1.7;
   frame.geotextile[0].gauge_tension = { 9e4, 2e5, 0.0 };
   const visualization_msgs::MarkerArray second = to_markers(frame, small_progress(), View());
@@ -250,6 +250,129 @@ TEST(Conversions, WhatIsNotFiniteIsNamed)
   progress = small_progress();
   progress.status.centroid_m.y() = nan;
   EXPECT_EQ(first_non_finite(progress), "status");
+}
+
+/// A pyramid of sheet with its square open at the bottom, 4 m long from x = -1 m, and a hull of two flat triangles
+/// with a third at right angles.
+scene::Frame solid_frame()
+{
+  scene::Frame frame;
+  frame.status.dimensions = 3;
+  scene::GeotextileFrame sheet;
+  sheet.name = "container";
+  sheet.node = {
+    { -1.0, -1.0, -2.0 }, { 3.0, -1.0, -2.0 }, { 3.0, 1.0, -2.0 }, { -1.0, 1.0, -2.0 }, { 1.0, 0.0, 0.0 }
+  };
+  sheet.velocity.assign(5, Vec3::Zero());
+  sheet.triangles = { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } };
+  sheet.tension = { 1e3, 2e3, 3e3, 4e3 };
+  sheet.gauge_tension = { 1e4, 2e4, 3e4, 4e4 };
+  sheet.gauge_length_m = 0.5;
+  sheet.strength_n_per_m = 2e5;
+  sheet.seam_strength_n_per_m = 1e5;
+  frame.geotextile.push_back(sheet);
+  scene::BoundaryFrame hull;
+  hull.name = "hull_port";
+  hull.position = { { 0.0, 2.0, 0.0 }, { 4.0, 2.0, 0.0 }, { 4.0, 0.0, -3.0 }, { 0.0, 0.0, -3.0 }, { 0.0, 2.0, -3.0 } };
+  hull.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 } };
+  frame.boundary.push_back(hull);
+  scene::SoilFrame soil;
+  soil.name = "sand";
+  soil.position = { { 2.0, 0.5, -1.0 } };
+  soil.velocity = { { 1.0, 2.0, 2.0 } };
+  soil.stress = { { -1.0, -2.0, -3.0, 40.0, 50.0, 60.0 } };
+  soil.volume = { 0.001 };
+  frame.soil.push_back(soil);
+  return frame;
+}
+
+TEST(Conversions, AThreeDimensionalSheetAndHullAreTriangles)
+{
+  scene::Frame frame = solid_frame();
+  const visualization_msgs::MarkerArray array = to_markers(frame, small_progress(), View());
+  ASSERT_EQ(array.markers.size(), 4u);  // sheet, faces and edges of the hull, legend
+  const visualization_msgs::Marker &sheet = array.markers[0], &faces = array.markers[1], &edges = array.markers[2];
+  EXPECT_EQ(sheet.type, visualization_msgs::Marker::TRIANGLE_LIST);
+  ASSERT_EQ(sheet.points.size(), 12u);
+  ASSERT_EQ(sheet.colors.size(), 12u);
+  EXPECT_EQ(sheet.points[5].x, 1.0);  // apex, last corner of the second triangle
+  EXPECT_EQ(sheet.points[3].x, 3.0);
+  EXPECT_EQ(sheet.points[3].y, -1.0);
+  // Green to yellow: the share of red grows with tension, whatever the shade. Each triangle has one colour.
+  const auto warmth = [&](std::size_t i) { return sheet.colors[i].r / sheet.colors[i].g; };
+  EXPECT_LT(warmth(0), warmth(3));
+  EXPECT_LT(warmth(6), warmth(9));
+  EXPECT_EQ(warmth(9), warmth(11));
+  EXPECT_EQ(faces.type, visualization_msgs::Marker::TRIANGLE_LIST);
+  EXPECT_EQ(faces.points.size(), 9u);
+  EXPECT_TRUE(faces.colors.empty());
+  EXPECT_LT(faces.color.a, 0.5f);
+  EXPECT_EQ(edges.type, visualization_msgs::Marker::LINE_LIST);
+  EXPECT_EQ(edges.points.size(), 2 * 6u);  // five of the rim and the bend; not the diagonal of the flat face
+  EXPECT_NE(faces.ns + std::to_string(faces.id), edges.ns + std::to_string(edges.id));
+
+  for (Vec3& node : frame.geotextile[0].node)
+    node.z() -= 3.0 + node.x();
+  for (Vec3& x : frame.boundary[0].position)
+    x = Eigen::AngleAxisd(0.3, Vec3::UnitX()) * x;
+  const visualization_msgs::MarkerArray later = to_markers(frame, small_progress(), View());
+  for (std::size_t i = 0; i + 1 < array.markers.size(); ++i)
+    EXPECT_EQ(array.markers[i].points.size(), later.markers[i].points.size()) << i;
+}
+
+TEST(Conversions, AThreeDimensionalContainersShapeIsItsSectionMidships)
+{
+  // At x = 0, a metre from the pyramid's end, the apex 2 m high being 2 m from it: a triangle cut off at half the
+  // height, open at the bottom, so there and back over what is between its ends.
+  const scene::Frame frame = solid_frame();
+  const geometry_msgs::PolygonStamped shape = to_container_shape(frame.geotextile[0], View());
+  ASSERT_EQ(shape.polygon.points.size(), 6u);  // two at the rim, two on the slanted edges; two of them once more
+  double top = -10.0, left = 10.0, right = -10.0;
+  for (const geometry_msgs::Point32& point : shape.polygon.points) {
+    EXPECT_NEAR(point.x, 0.0, 1e-6);
+    top = std::max<double>(top, point.z);
+    left = std::min<double>(left, point.y);
+    right = std::max<double>(right, point.y);
+  }
+  EXPECT_NEAR(top, -1.0, 1e-6);
+  EXPECT_NEAR(left, -1.0, 1e-6);
+  EXPECT_NEAR(right, 1.0, 1e-6);
+
+  // Closed at the bottom it is a ring of five: the bottom's diagonal is cut as well.
+  scene::GeotextileFrame closed = frame.geotextile[0];
+  closed.triangles.push_back({ 0, 2, 1 });
+  closed.triangles.push_back({ 0, 3, 2 });
+  EXPECT_EQ(to_container_shape(closed, View()).polygon.points.size(), 5u);
+
+  // Half a model, of which nothing is ahead of midships: the section nearest to it.
+  for (Vec3& node : closed.node)
+    node.x() -= 3.0;
+  const geometry_msgs::PolygonStamped half = to_container_shape(closed, View());
+  ASSERT_GE(half.polygon.points.size(), 4u);
+  for (const geometry_msgs::Point32& point : half.polygon.points)
+    EXPECT_NEAR(point.x, -0.004, 1e-6);  // a thousandth of the length inside
+}
+
+TEST(Conversions, ThreeDimensionalForcesAndSoilHaveTheirPlaceAlongTheBarge)
+{
+  const scene::Frame frame = solid_frame();
+  const GeotextileForces forces = to_geotextile_forces(frame.geotextile[0], View());
+  ASSERT_EQ(forces.triangles.size(), 3 * forces.tension.size());
+  EXPECT_EQ(forces.triangles[4], 2u);
+  EXPECT_EQ(forces.nodes[2].x, 3.0);
+  EXPECT_DOUBLE_EQ(forces.utilisation[3], 0.4);
+  EXPECT_TRUE(to_geotextile_forces(small_frame().geotextile[0], View()).triangles.empty());
+
+  const sensor_msgs::PointCloud2 cloud = to_soil_cloud(frame, View(), 1);
+  EXPECT_FLOAT_EQ(*sensor_msgs::PointCloud2ConstIterator<float>(cloud, "x"), 2.0f);
+  EXPECT_FLOAT_EQ(*sensor_msgs::PointCloud2ConstIterator<float>(cloud, "speed"), 3.0f);
+  EXPECT_FLOAT_EQ(*sensor_msgs::PointCloud2ConstIterator<float>(cloud, "mean_stress"), -2.0f);
+
+  Progress progress = small_progress();
+  progress.state = RunState::stopped;
+  progress.status.dimensions = 3;
+  progress.failure = { "gone", Vec3(4.0, 1.5, -2.0), 2.4 };
+  EXPECT_NE(status_sentence(progress).find("at x 4.000 m, y 1.500 m, z -2.000 m: gone"), std::string::npos);
 }
 
 TEST(Conversions, JointStatesIn)

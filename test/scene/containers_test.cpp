@@ -139,13 +139,13 @@ probes:
   ASSERT_EQ(run(simulation), Advance::finished) << simulation.failure().reason;
   const Frame frame = simulation.frame();
   double radius = 0.0;
-  for (const Vec2& x : frame.geotextile[0].node)
+  for (const Vec3& x : frame.geotextile[0].node)
     radius += x.norm() / static_cast<double>(frame.geotextile[0].node.size());
   double pressure = 0.0;
   std::size_t deep = 0;
   for (std::size_t p = 0; p < frame.soil[0].position.size(); ++p)
     if (frame.soil[0].position[p].norm() < 0.5) {
-      pressure -= 0.5 * (frame.soil[0].stress[p][0] + frame.soil[0].stress[p][1]);
+      pressure -= 0.5 * (frame.soil[0].stress[p][1] + frame.soil[0].stress[p][2]);
       ++deep;
     }
   pressure /= static_cast<double>(deep);
@@ -155,7 +155,7 @@ probes:
   // which the pressure stands. Sides of the sheet are 0.2 m on a radius of 1 m.
   const double half_width = 0.5 * std::sqrt(frame.soil[0].volume[0]);
   EXPECT_NEAR(tension, pressure * (radius - half_width), 0.02 * tension);
-  EXPECT_LT(furthest_out(frame.soil[0].position, frame.geotextile[0].node), 0.0);
+  EXPECT_LT(furthest_out(section(frame.soil[0].position), section(frame.geotextile[0].node)), 0.0);
 }
 
 TEST(Interface, MustHaveTheVelocityFieldToItself)
@@ -209,14 +209,14 @@ probes:
   ASSERT_EQ(run(simulation,
                 [](const Simulation& now) {
                   if (now.time_s() < 0.33) {
-                    EXPECT_EQ(now.status().centroid_m, Vec2(0.5, 0.5));
+                    EXPECT_EQ(now.status().centroid_m, Vec3(0.0, 0.5, 0.5));
                   }
                 }),
             Advance::finished)
       << simulation.failure().reason;
   // Exact but for the scheme's own g dt t / 2, with steps of at most 0.01 s.
-  EXPECT_NEAR(simulation.status().centroid_m[0], 0.5 + 0.5 * 0.5, 1e-9);
-  EXPECT_NEAR(simulation.status().centroid_m[1], 0.5 + 1.0 * 0.5 - 0.5 * gravity * 0.25, 1e-9);
+  EXPECT_NEAR(simulation.status().centroid_m.y(), 0.5 + 0.5 * 0.5, 1e-9);
+  EXPECT_NEAR(simulation.status().centroid_m.z(), 0.5 + 1.0 * 0.5 - 0.5 * gravity * 0.25, 1e-9);
   EXPECT_LT(simulation.counters().momentum_error, 1e-12);
   // The velocity put half a step back at the start makes (g dt / 2)^2 / 2 of energy a kilogram, of some 7 J that change
   // hands, with steps of at most 0.01 s.
@@ -235,7 +235,7 @@ Simulation drop(std::vector<std::string> overrides)
 void expect_apart(const Simulation& simulation)
 {
   const Frame frame = simulation.frame();
-  const std::vector<Vec2>&lower = frame.geotextile[0].node, &upper = frame.geotextile[1].node;
+  const std::vector<Vec2> lower = section(frame.geotextile[0].node), upper = section(frame.geotextile[1].node);
   EXPECT_LT(deepest_inside(upper, lower), 0.25 * 0.2) << frame.time_s;
   EXPECT_LT(deepest_inside(lower, upper), 0.25 * 0.2) << frame.time_s;
 }
@@ -270,7 +270,8 @@ TEST(TwoContainers, FillMaySlipInBoth)
                   if (frame.time_s < 1.2)  // as laid, sides of the sheet that is held cut the corners of its fill
                     return;
                   for (std::size_t c = 0; c < 2; ++c)
-                    EXPECT_LT(furthest_out(frame.soil[c].position, frame.geotextile[c].node), 0.0) << frame.time_s;
+                    EXPECT_LT(furthest_out(section(frame.soil[c].position), section(frame.geotextile[c].node)), 0.0)
+                        << frame.time_s;
                 }),
             Advance::finished)
       << simulation.failure().reason;

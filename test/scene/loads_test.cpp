@@ -86,9 +86,9 @@ supports:
 )"),
                                     "bar", {}),
                         1);
-  const double y = simulation.status().centroid_m[0];
+  const double y = simulation.status().centroid_m.y();
   ASSERT_EQ(run(simulation), Advance::finished);
-  EXPECT_NEAR(simulation.status().centroid_m[0] - y, 0.1, 1e-12);
+  EXPECT_NEAR(simulation.status().centroid_m.y() - y, 0.1, 1e-12);
   const EnergyFrame energy = simulation.energy();
   const double mass = 1000 * 0.2 * 0.05;
   EXPECT_NEAR(energy.kinetic, 0.5 * mass * 0.25, 1e-12 * mass);
@@ -137,11 +137,11 @@ bodies:
 )",
                                     "fall", {}),
                         1);
-  const double z = simulation.status().centroid_m[1];
+  const double z = simulation.status().centroid_m.z();
   ASSERT_EQ(run(simulation), Advance::finished);
   const double mass = 1000 * 0.08, speed = gravity * 0.4 * 0.4 / 0.8;
   // The leapfrog takes the table at the steps' instants: its end is half a step's kick short.
-  EXPECT_NEAR(simulation.status().centroid_m[1] - z, -gravity * 0.4 * 0.4 * 0.4 / 2.4, 1e-3);
+  EXPECT_NEAR(simulation.status().centroid_m.z() - z, -gravity * 0.4 * 0.4 * 0.4 / 2.4, 1e-3);
   EXPECT_NEAR(simulation.energy().work_in, 0.5 * mass * speed * speed, 0.06 * 0.5 * mass * speed * speed);
   EXPECT_LT(simulation.energy().relative_balance_error, 1e-9);
   EXPECT_EQ(simulation.energy().potential, 0.0);

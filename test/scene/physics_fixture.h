@@ -35,6 +35,15 @@ inline Advance run(Simulation& simulation)
   return run(simulation, [](const Simulation&) {});
 }
 
+/// The points of a plane-strain frame in their section, (y, z).
+inline std::vector<Vec2> section(const std::vector<Vec3>& points)
+{
+  std::vector<Vec2> result;
+  for (const Vec3& point : points)
+    result.emplace_back(point.tail<2>());
+  return result;
+}
+
 constexpr double degrees = 3.14159265358979323846 / 180.0;
 constexpr double gravity = 9.81;
 

@@ -28,14 +28,14 @@ TEST(FreeFall, FollowsTheParabolaToRoundOff)
   // With half-steps at both ends of every kick the leapfrog's own solution for constant acceleration is the parabola
   // itself, whatever the steps, so one bound covers both comparisons.
   Simulation simulation(parse_scene(falling_block, "falling_block"), 1);
-  const Vec2 start = simulation.status().centroid_m;
+  const Vec3 start = simulation.status().centroid_m;
   EXPECT_EQ(run(simulation), Advance::finished);
   const double t = simulation.time_s();
   EXPECT_DOUBLE_EQ(t, 0.5);
-  const Vec2 moved = simulation.status().centroid_m - start;
+  const Vec3 moved = simulation.status().centroid_m - start;
   const double fallen = 0.4 * t - 0.5 * gravity * t * t;
-  EXPECT_NEAR(moved[0], 0.3 * t, 1e-9 * 0.3 * t);
-  EXPECT_NEAR(moved[1], fallen, 1e-9 * std::abs(fallen));
+  EXPECT_NEAR(moved.y(), 0.3 * t, 1e-9 * 0.3 * t);
+  EXPECT_NEAR(moved.z(), fallen, 1e-9 * std::abs(fallen));
   EXPECT_LT(simulation.counters().momentum_error, 1e-11);
   // Struck at mid-step, half a step's parabola is what the balance leaves open: g^2 dt^2 / 8 over g h.
   EXPECT_LT(simulation.energy().relative_balance_error, 1e-5);
@@ -49,10 +49,10 @@ double slide(double friction, double until_s)
       load_scene(scene_path("block_on_incline"),
                  { fmt::format("surfaces.plane.friction={}", friction), fmt::format("time.end_s={}", until_s) }),
       1);
-  const Vec2 start = simulation.status().centroid_m;
+  const Vec3 start = simulation.status().centroid_m;
   EXPECT_EQ(run(simulation), Advance::finished) << simulation.failure().reason;
-  const Vec2 moved = simulation.status().centroid_m - start;
-  return moved[0] * std::cos(30 * degrees) - moved[1] * std::sin(30 * degrees);
+  const Vec3 moved = simulation.status().centroid_m - start;
+  return moved.y() * std::cos(30 * degrees) - moved.z() * std::sin(30 * degrees);
 }
 
 TEST(BlockOnIncline, SlidesAsTheClosedForm)
@@ -110,8 +110,8 @@ hull:
   double angle = -1.0;
   const auto centroid = [](const SoilFrame& soil) {
     Vec2 sum = Vec2::Zero();
-    for (const Vec2& x : soil.position)
-      sum += x;
+    for (const Vec3& x : soil.position)
+      sum += x.tail<2>();
     return Vec2(sum / static_cast<double>(soil.position.size()));
   };
   Vec2 start = Vec2::Zero();

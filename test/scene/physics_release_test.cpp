@@ -43,10 +43,10 @@ double behind_hull(const Frame& frame, const barge::SplitHull& hull)
       if (distance < 0.0 && distance > -0.5)
         deepest = std::max(deepest, -distance);
     };
-    for (const Vec2& x : frame.geotextile[0].node)
-      look(x);
-    for (const Vec2& x : frame.soil[0].position)
-      look(x);
+    for (const Vec3& x : frame.geotextile[0].node)
+      look(x.tail<2>());
+    for (const Vec3& x : frame.soil[0].position)
+      look(x.tail<2>());
   }
   return deepest;
 }
@@ -68,8 +68,8 @@ TEST(Hopper, CarriesTheWeightOfTheRestingContainer)
   const Frame frame = simulation.frame();
   double carried = 0.0, sideways = 0.0;
   for (const BoundaryFrame& boundary : frame.boundary) {
-    carried -= boundary.force_n_per_m[1];
-    sideways += boundary.force_n_per_m[0];
+    carried -= boundary.force.z();
+    sideways += boundary.force.y();
   }
   EXPECT_NEAR(carried, weight, 0.01 * weight);
   EXPECT_NEAR(sideways, 0.0, 0.01 * weight);
@@ -91,10 +91,11 @@ TEST(DefaultRelease, IsReleasedWithBalancesClosedAndNothingLeaks)
   const Advance end = run(simulation, [&](const Simulation& s) {
     const Frame frame = s.frame();
     ++frames;
-    for (const Vec2& x : frame.soil[0].position)
-      leaked += outside(frame.geotextile[0].node, x) > quarter_cell ? 1 : 0;
+    const std::vector<Vec2> sheet = section(frame.geotextile[0].node);
+    for (const Vec2& x : section(frame.soil[0].position))
+      leaked += outside(sheet, x) > quarter_cell ? 1 : 0;
     behind += behind_hull(frame, hull) > quarter_cell ? 1 : 0;
-    for (const Vec2& x : frame.geotextile[0].node)
+    for (const Vec2& x : sheet)
       below += x[1] < bed - quarter_cell ? 1 : 0;
   });
   EXPECT_EQ(end, Advance::finished) << simulation.failure().reason;
@@ -106,7 +107,7 @@ TEST(DefaultRelease, IsReleasedWithBalancesClosedAndNothingLeaks)
   const StatusFrame status = simulation.status();
   EXPECT_EQ(status.outcome, Outcome::released);
   EXPECT_TRUE(status.resting);
-  EXPECT_NEAR(status.soil_volume_m2, status.soil_volume_initial_m2, 0.03 * status.soil_volume_initial_m2);
+  EXPECT_NEAR(status.soil_volume, status.soil_volume_initial, 0.03 * status.soil_volume_initial);
   EXPECT_LT(simulation.energy().relative_balance_error, 0.003);
   EXPECT_LT(simulation.counters().momentum_error, 1e-11);
   // Every form of dissipation takes energy, none gives.

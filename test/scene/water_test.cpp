@@ -55,7 +55,7 @@ Simulation finished(const std::string& text, const std::vector<std::string>& ove
 TEST(Buoyancy, LeavesANeutralBodyWhereItIs)
 {
   const Simulation simulation = finished(block(fresh, -2.0, 0.0, 0.0));
-  EXPECT_NEAR(simulation.status().centroid_m[1], -1.8, 1e-13);
+  EXPECT_NEAR(simulation.status().centroid_m.z(), -1.8, 1e-13);
   EXPECT_NEAR(simulation.water()->submerged_weight_n_per_m, 0.0, 1e-9);
 }
 
@@ -67,7 +67,7 @@ TEST(Buoyancy, CarriesAsMuchAsABodyDisplaces)
     const Simulation simulation = finished(
         block(density, -0.15, 0.0, 0.0, "numerics: { damping_per_s: 5, skip_resting: false }"), { "time.end_s=4" });
     const double draught = 0.4 * density / fresh;
-    EXPECT_NEAR(simulation.status().centroid_m[1], 0.2 - draught, 2e-3 * 0.4) << density;
+    EXPECT_NEAR(simulation.status().centroid_m.z(), 0.2 - draught, 2e-3 * 0.4) << density;
     EXPECT_NEAR(simulation.water()->submerged_share, density / fresh, 2e-3);
   }
 }
@@ -95,7 +95,7 @@ TEST(AddedMass, SlowsAFallFromRest)
   for (const double added : { 0.0, 1.0, 3.0 }) {
     const Simulation simulation = finished(block(1800, -2.0, 0.0, added));
     const double fallen = 0.5 * gravity * (1800 - fresh) / (1800 + added * fresh) * 0.25;
-    EXPECT_NEAR(-1.8 - simulation.status().centroid_m[1], fallen, 1e-9 * fallen) << added;
+    EXPECT_NEAR(-1.8 - simulation.status().centroid_m.z(), fallen, 1e-9 * fallen) << added;
     EXPECT_LT(simulation.counters().momentum_error, 1e-11);
     EXPECT_LT(simulation.energy().relative_balance_error, 1e-4);
   }
@@ -105,7 +105,7 @@ TEST(Water, AboveItABodyFallsFreely)
 {
   const Simulation simulation = finished(block(1800, 1.5, 2.0, 2.0), { "time.end_s=0.4" });
   const double fallen = 0.5 * gravity * 0.16;
-  EXPECT_NEAR(1.7 - simulation.status().centroid_m[1], fallen, 1e-12 * fallen);
+  EXPECT_NEAR(1.7 - simulation.status().centroid_m.z(), fallen, 1e-12 * fallen);
   EXPECT_EQ(simulation.water()->dissipated_j_per_m, 0.0);
 }
 
@@ -199,10 +199,10 @@ water: { density_kg_per_m3: 1000, level_m: 0, drag_coefficient: 0, added_mass_co
                         1);
   const Frame frame = simulation.frame();
   for (std::size_t p = 0; p < frame.soil[0].position.size(); ++p) {
-    const double z = frame.soil[0].position[p][1];
+    const double z = frame.soil[0].position[p].z();
     const double exact = gravity * (1300 * (1.0 - z) - 1000 * std::max(0.0, -z));
     // The fluid's compression, p / K: 1.6e-4.
-    EXPECT_NEAR(-frame.soil[0].stress[p][1], exact, 2e-4 * exact);
+    EXPECT_NEAR(-frame.soil[0].stress[p][2], exact, 2e-4 * exact);
   }
   // It is a start at rest: nothing moves but by the particles' rows, half a cell at surface and interface.
   EXPECT_EQ(run(simulation), Advance::finished);

@@ -17,12 +17,6 @@ struct Nearest {
   Vec<Dim> normal;  ///< of the surface there, unit, into the free side
 };
 
-/// What a vector has in the section: its y and z.
-template <class V>
-Vec2 in_section(const Eigen::MatrixBase<V>& v)
-{
-  return v.template tail<2>();
-}
 /// The vector with another part in the section.
 template <class V>
 Vec<V::SizeAtCompileTime> with_section(const Eigen::MatrixBase<V>& v, const Vec2& section)

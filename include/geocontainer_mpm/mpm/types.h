@@ -21,19 +21,31 @@ inline constexpr int y_axis = Dim - 2;
 template <int Dim>
 inline constexpr int z_axis = Dim - 1;
 
-/// The same vector in `To` dimensions, at least as many: what is new, along the barge, is zero.
-template <int To, int From>
-Vec<To> in_space(const Vec<From>& v)
+/// A vector [y, z] of the section in the dimensions of a model: in space without a part along the barge.
+template <int Dim>
+Vec<Dim> in_space(const Vec2& of_section)
 {
-  Vec<To> result = Vec<To>::Zero();
-  result.template tail<From>() = v;
-  return result;
+  Vec<Dim> v = Vec<Dim>::Zero();
+  v.template tail<2>() = of_section;
+  return v;
 }
 /// What of a vector lies in the section, [y, z].
-template <int Dim>
-Vec2 in_section(const Vec<Dim>& v)
+template <typename Vector>
+Vec2 in_section(const Eigen::MatrixBase<Vector>& vector)
 {
-  return v.template tail<2>();
+  return vector.template tail<2>();
+}
+
+/// A vector of a model of either dimension in the barge frame; one of the plane-strain section has x = 0.
+template <typename Vector>
+Vec3 in_barge_frame(const Eigen::MatrixBase<Vector>& vector)
+{
+  constexpr int dim = Vector::RowsAtCompileTime;
+  static_assert(dim == 2 || dim == 3);
+  if constexpr (dim == 3)
+    return vector;
+  else
+    return { 0.0, vector[0], vector[1] };
 }
 
 }  // namespace geocontainer_mpm

@@ -1,6 +1,6 @@
 #pragma once
-/// From frames to messages: pure functions, no node, no master. Geometry is given in the barge frame (section in the
-/// y-z plane, x = 0) and comes out in `View::frame_id`.
+/// From frames to messages: pure functions, no node, no master. Geometry is given in the barge frame and comes out in
+/// `View::frame_id`.
 
 #include <geocontainer_mpm/GeotextileForces.h>
 #include <geocontainer_mpm/ReleaseStatus.h>
@@ -19,12 +19,13 @@
 
 namespace geocontainer_mpm::ros_bridge {
 
-/// How a section is put into the world.
+/// How a frame is put into the world.
 struct View {
   std::string frame_id = "base_link";
   ros::Time stamp;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the barge in frame_id
-  double width_m = 3.0;  ///< the section is drawn from x = -width_m to 0, so that its face is what the viewer sees
+  /// A plane-strain section is drawn from x = -width_m to 0, so that its face is what the viewer sees.
+  double width_m = 3.0;
 };
 
 /// Stamp of a frame; `before_first_sample` is for a run whose epoch is not known yet.
@@ -34,7 +35,8 @@ ros::Time to_time(std::int64_t stamp_ns, const ros::Time& before_first_sample);
 std::string first_non_finite(const scene::Frame& frame);
 std::string first_non_finite(const Progress& progress);
 
-/// The outline of a closed sheet; an open one goes there and back, since a polygon joins its ends.
+/// The outline of a closed sheet; an open one goes there and back, since a polygon joins its ends. In 3-D the section
+/// nearest midships.
 geometry_msgs::PolygonStamped to_container_shape(const scene::GeotextileFrame& sheet, const View& view);
 GeotextileForces to_geotextile_forces(const scene::GeotextileFrame& sheet, const View& view);
 
@@ -46,8 +48,9 @@ ReleaseStatus to_release_status(const Progress& progress, const View& view);
 /// The filtered opening in use, for robot_state_publisher: joints `hull_port_joint` and `hull_starboard_joint`.
 sensor_msgs::JointState to_hull_joint_states(const barge::OpeningAngles& opening, const ros::Time& stamp);
 
-/// Ribbon of each geotextile coloured by utilisation, outlines of hull and surfaces, legend. Ids and vertex counts
-/// depend on the scene alone, so that rviz updates in place.
+/// Each geotextile coloured by utilisation, a ribbon in plane strain, its triangles in 3-D; outlines of hull and
+/// surfaces, in 3-D their faces as well; legend. Ids and vertex counts depend on the scene alone, so that rviz updates
+/// in place.
 visualization_msgs::MarkerArray to_markers(const scene::Frame& frame, const Progress& progress, const View& view);
 
 /// One sentence for the superintendent.

@@ -1,5 +1,9 @@
 #pragma once
 /// One instant of a run as everybody downstream sees it: record, topics, forecast. Plain data, owned by the receiver.
+///
+/// Every vector is in the barge frame: x forward, y to port, z up. In plane strain x is 0, volumes are areas of the
+/// section (m^2), and forces, energies and weights are per metre along x (N/m, J/m); in 3-D they are m^3, N and J.
+/// `StatusFrame::dimensions` says which it is. Tension of a sheet is N/m, force per width, in both.
 
 #include <array>
 #include <cstddef>
@@ -23,24 +27,34 @@ enum class Outcome {
 };
 const char* to_string(Outcome outcome);
 
+/// Components xx, yy, zz, xy, xz, yz, as in material/law.h's three dimensions; in plane strain xy and xz are 0.
+using SymmetricTensor = std::array<double, 6>;
+
 /// Particles of one body.
 struct SoilFrame {
   std::string name;
-  std::vector<Vec2> position;                 ///< m
-  std::vector<Vec2> velocity;                 ///< m/s
-  std::vector<std::array<double, 4>> stress;  ///< Cauchy stress yy, zz, yz, xx (out of plane), Pa, tension positive
-  std::vector<double> volume;                 ///< current volume per unit width, m^2
+  std::vector<Vec3> position;           ///< m
+  std::vector<Vec3> velocity;           ///< m/s
+  std::vector<SymmetricTensor> stress;  ///< Cauchy stress, Pa, tension positive
+  std::vector<double> volume;           ///< current volume, m^2 or m^3
 };
 
-/// One sheet: node i and node i + 1 bound segment i. Closed: the last segment joins the last node to the first; open:
-/// there is one segment less than nodes.
+/// Corners of one triangle: indices into the nodes or positions of its part.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// One sheet, in pieces that carry its tension. Without triangles it is a line and its pieces are segments: node i and
+/// node i + 1 bound segment i; closed: the last segment joins the last node to the first; open: there is one segment
+/// less than nodes. With triangles these are the pieces.
 struct GeotextileFrame {
   std::string name;
-  bool closed = true;
-  std::vector<Vec2> node;             ///< m, in order along the sheet
-  std::vector<Vec2> velocity;         ///< m/s
-  std::vector<double> tension;        ///< per segment, raw, N/m, >= 0
-  std::vector<double> gauge_tension;  ///< per segment, mean over the gauge length, N/m: what is reported and judged
+  bool closed = true;                 ///< of a line
+  std::vector<Vec3> node;             ///< m; of a line in order along it
+  std::vector<Vec3> velocity;         ///< m/s
+  std::vector<Triangle> triangles;    ///< seen from outside counter-clockwise
+  std::vector<double> tension;        ///< per piece, raw, N/m, >= 0; of a triangle the larger principal one
+  std::vector<double> gauge_tension;  ///< per piece, mean over the gauge length, N/m: what is reported and judged
+  std::vector<double> warp_tension;   ///< per triangle, mean over the gauge length, along the warp, N/m; may be empty
+  std::vector<double> weft_tension;   ///< the same along the weft
   double gauge_length_m = 0.0;
   double strength_n_per_m = 0.0;  ///< of the sheet
   double seam_strength_n_per_m = 0.0;
@@ -48,14 +62,15 @@ struct GeotextileFrame {
 
 /// One rigid half or surface of boundary particles.
 struct BoundaryFrame {
-  std::string name;                   ///< `hull_port`, `hull_starboard`, or the surface's key
-  std::vector<Vec2> position;         ///< boundary particles, in order along the section, m
-  bool closed = false;                ///< joined from the last particle to the first
-  double angle_rad = 0.0;             ///< rotation about hinge or pivot: a hull half opening positive, else about +x
-  Vec2 force_n_per_m = Vec2::Zero();  ///< what the bodies press on it, mean over the output interval, N/m
+  std::string name;                 ///< `hull_port`, `hull_starboard`, or the surface's key
+  std::vector<Vec3> position;       ///< boundary particles, m; of a line in order along the section
+  std::vector<Triangle> triangles;  ///< counter-clockwise seen from the bodies; none: a line
+  bool closed = false;              ///< a line joined from its last particle to the first
+  double angle_rad = 0.0;           ///< rotation about hinge or pivot: a hull half opening positive, else about +x
+  Vec3 force = Vec3::Zero();        ///< what the bodies press on it, mean over the output interval, N/m or N
 };
 
-/// Energies per unit width, J/m; see docs/concepts for the balance.
+/// Energies, J/m or J; see docs/concepts for the balance.
 struct EnergyFrame {
   double kinetic = 0.0;
   double elastic = 0.0;
@@ -71,15 +86,15 @@ struct EnergyFrame {
   double relative_balance_error = 0.0;  ///< |change + dissipated - work in| over all energy that changed hands
 };
 
-/// What the water does to the bodies, per unit width.
+/// What the water does to the bodies.
 struct WaterFrame {
-  double level_m = 0.0;                   ///< z of the surface
-  double submerged_share = 0.0;           ///< of the bodies' volume, now
-  double buoyancy_n_per_m = 0.0;          ///< now
-  double submerged_weight_n_per_m = 0.0;  ///< of bodies and sheets less buoyancy, now
-  double fastest_fall_m_per_s = 0.0;      ///< largest downward mean velocity of the submerged part of a body so far
-  Vec2 drag_impulse_n_s_per_m = Vec2::Zero();  ///< since the start
-  double dissipated_j_per_m = 0.0;             ///< since the start
+  double level_m = 0.0;               ///< z of the surface
+  double submerged_share = 0.0;       ///< of the bodies' volume, now
+  double buoyancy = 0.0;              ///< now, N/m or N
+  double submerged_weight = 0.0;      ///< of bodies and sheets less buoyancy, now, N/m or N
+  double fastest_fall_m_per_s = 0.0;  ///< largest downward mean velocity of the submerged part of a body so far
+  Vec3 drag_impulse = Vec3::Zero();   ///< since the start, N s/m or N s
+  double dissipated = 0.0;            ///< since the start, J/m or J
 };
 
 /// A container's tension since another body started that had been held: what dropping that one on it does.
@@ -91,41 +106,35 @@ struct TensionEpisode {
   double peak_time_s = 0.0;
 };
 
-/// One container: a body and the sheet around it.
-struct ContainerStatus {
-  std::string name;  ///< the sheet's
-  Outcome outcome = Outcome::none;
+/// How a container is, or all containers together.
+struct ContainerState {
+  Outcome outcome = Outcome::waiting;
   double release_time_s = -1.0;       ///< < 0 while not released
   double peak_tension_n_per_m = 0.0;  ///< largest gauge tension so far
   double peak_tension_time_s = 0.0;
-  Vec2 peak_tension_position_m = Vec2::Zero();
-  double current_tension_n_per_m = 0.0;
-  double elongation_max = 0.0;
-  double peak_utilisation_sheet = 0.0, peak_utilisation_seam = 0.0;
-  Vec2 centroid_m = Vec2::Zero();  ///< of the fill, by mass
-  double width_m = 0.0, height_m = 0.0;
-  double soil_volume_m2 = 0.0, soil_volume_initial_m2 = 0.0;
+  Vec3 peak_tension_position_m = Vec3::Zero();
+  double current_tension_n_per_m = 0.0;                  ///< largest gauge tension now
+  double elongation_max = 0.0;                           ///< largest strain of the sheet so far
+  double peak_utilisation_sheet = 0.0;                   ///< largest gauge tension over the sheet's strength so far
+  double peak_utilisation_seam = 0.0;                    ///< the same at the seams, over theirs
+  std::size_t ruptures = 0;                              ///< pieces of the sheet that broke
+  double rupture_time_s = -1.0;                          ///< when the first did; < 0: none
+  Vec3 rupture_position_m = Vec3::Zero();                ///< where the first did
+  Vec3 centroid_m = Vec3::Zero();                        ///< of the soil, by mass
+  double length_m = 0.0, width_m = 0.0, height_m = 0.0;  ///< extent along x (0 in plane strain), y and z now
+  double soil_volume = 0.0, soil_volume_initial = 0.0;   ///< now and at the start, m^2 or m^3
+};
+
+/// One container: a body and the sheet around it.
+struct ContainerStatus : ContainerState {
+  std::string name;  ///< the sheet's
   std::vector<TensionEpisode> episodes;
 };
 
-struct StatusFrame {
-  Outcome outcome = Outcome::waiting;
-  double release_time_s = -1.0;       ///< < 0 while not released
-  bool resting = false;               ///< nothing moves: no steps are taken
-  double peak_tension_n_per_m = 0.0;  ///< largest gauge tension so far
-  double peak_tension_time_s = 0.0;
-  Vec2 peak_tension_position_m = Vec2::Zero();
-  double current_tension_n_per_m = 0.0;  ///< largest gauge tension now
-  double elongation_max = 0.0;           ///< largest strain of the sheet so far
-  Vec2 centroid_m = Vec2::Zero();        ///< of the soil, by mass
-  double width_m = 0.0, height_m = 0.0;  ///< extent of the container now
-  double soil_volume_m2 = 0.0;           ///< per unit width, now
-  double soil_volume_initial_m2 = 0.0;
-  double peak_utilisation_sheet = 0.0;  ///< largest gauge tension over the sheet's strength so far
-  double peak_utilisation_seam = 0.0;   ///< the same at the seams, over theirs
-  std::size_t ruptures = 0;             ///< pieces of sheets that broke
-  double rupture_time_s = -1.0;         ///< when the first did; < 0: none
-  Vec2 rupture_position_m = Vec2::Zero();
+/// All together, bodies without a sheet included: released when the last container is, hung up when one is.
+struct StatusFrame : ContainerState {
+  int dimensions = 2;                       ///< 2: plane strain, 3
+  bool resting = false;                     ///< nothing moves: no steps are taken
   std::vector<ContainerStatus> containers;  ///< in the order of their sheets
 };
 
@@ -141,6 +150,9 @@ struct ProbeFrame {
   std::vector<double> time_s;  ///< of the samples, ascending
   std::vector<Column> columns;
 };
+
+/// `place(position, 3)` is "x 1.000 m, y 2.000 m, z 3.000 m"; of plane strain without x.
+std::string place(const Vec3& position_m, int dimensions);
 
 struct Frame {
   double time_s = 0.0;        ///< simulation time

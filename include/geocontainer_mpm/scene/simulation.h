@@ -48,8 +48,8 @@ struct RunCounters {
 
 /// Why a run had to stop: what, where, when.
 struct Failure {
-  std::string reason;  ///< one sentence: cause, body, particle
-  Vec3 position_m = Vec3::Zero();
+  std::string reason;              ///< one sentence: cause, body, particle
+  Vec3 position_m = Vec3::Zero();  ///< in the barge frame
   double time_s = 0.0;
 };
 
