@@ -178,6 +178,7 @@ void FrequencyBound<Dim>::begin(const Grid<Dim>& grid, const Discretisation& met
   segment_nodes_.clear();
   for (std::vector<double>* nodal : { &first_, &second_, &held_ })
     nodal->resize(grid.size());
+  slot_.resize(grid.size());
 }
 
 template <int Dim>
@@ -195,22 +196,29 @@ void FrequencyBound<Dim>::add_mass(const Particles<Dim>& particles)
 template <int Dim>
 void FrequencyBound<Dim>::add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness)
 {
-  const AnyReach<Dim> near = reach_of<Dim>(method_.shape, a, *grid_), far = reach_of<Dim>(method_.shape, b, *grid_);
+  const std::array<SpanPoint, 2> ends{ { { a, -1.0 }, { b, 1.0 } } };
+  add_span(ends.data(), ends.size(), stiffness);
+}
+
+template <int Dim>
+void FrequencyBound<Dim>::add_span(const SpanPoint* points, std::size_t count, double stiffness)
+{
   const std::size_t first = segment_nodes_.size();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(near.count); ++k)
-    segment_nodes_.push_back({ near.node[k], -near.weight[k] });
-  const std::size_t shared = segment_nodes_.size();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(far.count); ++k) {
-    std::size_t at = first;
-    while (at < shared && segment_nodes_[at].node != far.node[k])
-      ++at;
-    if (at < shared)
-      segment_nodes_[at].change += far.weight[k];
-    else
-      segment_nodes_.push_back({ far.node[k], far.weight[k] });
+  for (const SpanPoint* point = points; point < points + count; ++point) {
+    const AnyReach<Dim> reach = reach_of<Dim>(method_.shape, point->place, *grid_);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k) {
+      std::uint32_t& slot = slot_[reach.node[k]];
+      if (slot == 0) {
+        segment_nodes_.push_back({ reach.node[k], 0.0 });
+        slot = static_cast<std::uint32_t>(segment_nodes_.size() - first);
+      }
+      segment_nodes_[first + slot - 1].change += point->coefficient * reach.weight[k];
+    }
   }
-  for (std::size_t at = first; at < segment_nodes_.size(); ++at)
+  for (std::size_t at = first; at < segment_nodes_.size(); ++at) {
     segment_nodes_[at].change = std::abs(segment_nodes_[at].change);
+    slot_[segment_nodes_[at].node] = 0;
+  }
   segments_.push_back({ stiffness, first, segment_nodes_.size() - first });
 }
 

@@ -103,6 +103,16 @@ public:
   /// A segment from `a` to `b` (m) that pulls with `stiffness` = J / l0, N/m per m of relative displacement. Leave out
   /// what is slack and stays so.
   void add_segment(const Vec<Dim>& a, const Vec<Dim>& b, double stiffness);
+  /// A point at which a span holds on to the grid, with its share in the span's lengthening.
+  struct SpanPoint {
+    Vec<Dim> place;
+    double coefficient;
+  };
+  /// What resists a length that several points have a part in, such as that of the yarns in a triangle: with the
+  /// lengthening b_i = sum_k c_k w_i(x_k) that node i gives, its stiffness is K_ij = stiffness b_i b_j P, P any matrix
+  /// between 0 and the identity. A segment is one with the coefficients -1 and 1; to the rounds |b_i| is |dw_i|. It may
+  /// bound stress stiffness too: tension T at a length l adds at most T / l (I - t (x) t).
+  void add_span(const SpanPoint* points, std::size_t count, double stiffness);
   /// A membrane point at `x` that resists stretch along the unit vector `along`: K_ij = stiffness b_i b_j along (x)
   /// along, b_i = along . grad w_i. Stiffness is tangent modulus, N/m, times present length squared over unstretched
   /// length: N (N m in space). To the rounds it is a segment with |b_i| for |dw_i|.
@@ -122,7 +132,7 @@ private:
   };
   struct SegmentNode {
     std::uint32_t node;
-    double change;  ///< |w_i(b) - w_i(a)|
+    double change;  ///< |b_i|: of a segment |w_i(b) - w_i(a)|
   };
 
   struct SegmentElement;
@@ -146,6 +156,7 @@ private:
   std::vector<double> first_, second_;  ///< nodal S_i, then S_i / m_i, of the first and second round
   std::vector<double> held_;            ///< scratch of keep_what_particles_hold()
   std::vector<double> own_;             ///< x_e of the second round
+  std::vector<std::uint32_t> slot_;     ///< scratch of add_span(): per node its place in the span, from 1; else 0
 };
 
 }  // namespace geocontainer_mpm::mpm

@@ -1,0 +1,272 @@
+// The sheet in space against the sheet in plane strain, and under pressure against the closed form; and its bound on
+// the time step.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "../mpm/random_cloud.h"
+#include "geocontainer_mpm/geotextile/membrane.h"
+#include "geocontainer_mpm/geotextile/sheet.h"
+#include "geocontainer_mpm/mpm/reach.h"
+
+namespace geocontainer_mpm::geotextile::testing {
+namespace {
+
+using mpm::testing::Chance;
+using mpm::testing::set_vector;
+using mpm::testing::vector_at;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double stiffness = 1e5;
+
+SheetLayout circle(double radius, int corners = 2880)
+{
+  SheetLayout outline;
+  outline.closed = true;
+  for (int k = 0; k < corners; ++k)
+    outline.points.emplace_back(radius * std::cos(2.0 * pi * k / corners), radius * std::sin(2.0 * pi * k / corners));
+  return outline;
+}
+
+MembraneParameters parameters()
+{
+  MembraneParameters p;
+  p.warp_stiffness = p.weft_stiffness = stiffness;
+  p.mass = p.computational_mass = 1.0;
+  p.gauge_length = 0.3;
+  return p;
+}
+
+/// One explicit step of nodes on their own, held where `held` says so.
+template <int Dim>
+void step(double dt, const std::vector<bool>& held, mpm::Particles<Dim>& nodes)
+{
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (held[i])
+      continue;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      nodes.velocity[d][i] += dt * nodes.force[d][i] / nodes.mass[i];
+      nodes.position[d][i] += dt * nodes.velocity[d][i];
+    }
+    nodes.velocity[Dim - 1][i] -= dt * 9.81;
+  }
+}
+
+TEST(MembraneEquilibrium, AHangingStripMovesAsTheSheetInPlaneStrain)
+{
+  // Laid straight between two points, slack by 10 %, with a fuller half: it falls, tightens and swings.
+  SheetLayout line{ { { 0.0, 0.0 }, { 1.0, 0.5 }, { 2.0, 0.4 } }, false, { 1.0, 1.2 } };
+  SheetParameters in_plane;
+  in_plane.stiffness = stiffness;
+  in_plane.mass = in_plane.computational_mass = 1.0;
+  in_plane.segment_length = in_plane.gauge_length = 0.1;
+  in_plane.unstretched_length = 1.1 * line.cloth_length();
+  Sheet sheet(line, in_plane);
+  Membrane membrane(wrap(line, { 0.0, 0.5 }, {}, 0.1, { 1.1, 1.0, 1.0 }), parameters());
+  const std::size_t n = sheet.nodes().size(), rows = membrane.nodes().size() / n;
+  ASSERT_EQ(rows * n, membrane.nodes().size());
+  std::vector<bool> held(membrane.nodes().size(), false);
+  for (std::size_t j = 0; j < rows; ++j)
+    held[j * n] = held[j * n + n - 1] = true;
+  const double dt = 0.5 * in_plane.segment_length / std::sqrt(stiffness);
+  double peak = 0.0, apart = 0.0;
+  for (int k = 0; k < 4000; ++k) {
+    sheet.update_forces();
+    membrane.update_forces();
+    for (std::size_t i = 0; i < sheet.segments(); ++i) {
+      peak = std::max(peak, sheet.tension()[i]);
+      for (std::size_t j = 0; j + 1 < rows; ++j)
+        for (const std::size_t t : { 2 * (j * (n - 1) + i), 2 * (j * (n - 1) + i) + 1 })
+          ASSERT_NEAR(membrane.warp_tension()[t], sheet.tension()[i], 1e-8 * stiffness) << k;
+    }
+    step<2>(dt, held, sheet.nodes());
+    step<3>(dt, held, membrane.nodes());
+    for (std::size_t i = 0; i < membrane.nodes().size(); ++i)
+      apart = std::max(apart, (membrane.node(i).tail<2>() - sheet.node(i % n)).norm());
+  }
+  EXPECT_GT(peak, 0.01 * stiffness);
+  EXPECT_NEAR(membrane.elastic_energy(), 0.5 * sheet.elastic_energy(), 1e-8 * sheet.elastic_energy());  // 0.5 m wide
+  EXPECT_LT(apart, 1e-9);  // round-off, grown by the sheet's fall
+}
+
+/// Masses with which a time step of 1 is stable: half of the largest sum of a row of the stiffness (Gershgorin; the
+/// dynamic relaxation of Underwood 1983).
+std::vector<double> relaxation_masses(const TriangleMesh& mesh)
+{
+  std::vector<double> mass(mesh.points.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& nodes = mesh.triangles[t];
+    std::array<double, 3> across;  // |grad N_k|
+    for (std::size_t k = 0; k < 3; ++k)
+      across[k] = 0.5 * (mesh.points[nodes[(k + 1) % 3]] - mesh.points[nodes[(k + 2) % 3]]).norm() / mesh.area(t);
+    for (std::size_t k = 0; k < 3; ++k)
+      mass[nodes[k]] += stiffness * mesh.area(t) * across[k] * (across[0] + across[1] + across[2]);
+  }
+  return mass;
+}
+
+/// Explicit steps, from rest again whenever the kinetic energy falls, until the largest force is small.
+double relax(const MembraneLoad& load, const std::vector<double>& mass, double small, int most_steps,
+             Membrane& membrane)
+{
+  mpm::Particles<3>& nodes = membrane.nodes();
+  double last = 0.0, largest = 0.0;
+  for (int k = 0; k < most_steps; ++k) {
+    membrane.update_forces(load);
+    double kinetic = 0.0;
+    largest = 0.0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t d = 0; d < 3; ++d) {
+        double& v = nodes.velocity[d][i];
+        v += nodes.force[d][i] / mass[i];
+        kinetic += mass[i] * v * v;
+        largest = std::max(largest, std::abs(nodes.force[d][i]));
+      }
+    if (largest < small)
+      break;
+    if (kinetic < last) {
+      for (mpm::Column& column : nodes.velocity)
+        std::fill(column.begin(), column.end(), 0.0);
+      kinetic = 0.0;
+    }
+    last = kinetic;
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes.position[d][i] += nodes.velocity[d][i];
+  }
+  return largest;
+}
+
+/// Of a long cylinder of unstretched radius R and unstretched widths: T_hoop = p R s_hoop s_axial, T_axial = p R
+/// s_hoop^2 / 2 with the stretches s = 1 + T / J; for small strains p R and p R / 2.
+struct Vessel {
+  double hoop = 0.0, axial = 0.0;
+};
+Vessel closed_form(double pressure, double radius)
+{
+  Vessel v;
+  for (int k = 0; k < 200; ++k)
+    v = { pressure * radius * (1.0 + v.hoop / stiffness) * (1.0 + v.axial / stiffness),
+          0.5 * pressure * radius * std::pow(1.0 + v.hoop / stiffness, 2) };
+  return v;
+}
+
+TEST(MembraneEquilibrium, APressureVesselHasItsHoopAndAxialTension)
+{
+  const double radius = 1.0, length = 3.0, pressure = 0.02 * stiffness;
+  const Vessel exact = closed_form(pressure, radius);
+  MembraneLoad load;
+  load.pressure = pressure;
+  double last_error = 1.0;
+  for (const int around : { 12, 24, 48 }) {
+    const double segment = 2.0 * pi * radius / around;
+    const TriangleMesh mesh = wrap(circle(radius), { 0.0, length }, { true, true }, segment);
+    Membrane membrane(mesh, parameters());
+    const double left = relax(load, relaxation_masses(mesh), 1e-4 * pressure * segment * segment, 6000, membrane);
+    EXPECT_LT(left, 1e-4 * pressure * segment * segment) << "not at rest";
+    // Hoop tension in the middle third of the wall; axial tension as its mean over the cloth there.
+    double hoop = 0.0, axial = 0.0, cloth = 0.0, hoop_error = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double x = (mesh.points[mesh.triangles[t][0]][0] + mesh.points[mesh.triangles[t][1]][0] +
+                        mesh.points[mesh.triangles[t][2]][0]) /
+                       3.0;
+      if (mesh.panel[t] != Panel::wall || std::abs(x - 0.5 * length) > length / 6.0)
+        continue;
+      cloth += mesh.area(t);
+      hoop += mesh.area(t) * membrane.warp_tension()[t];
+      axial += mesh.area(t) * membrane.weft_tension()[t];
+      hoop_error = std::max(hoop_error, std::abs(membrane.warp_tension()[t] / exact.hoop - 1.0));
+    }
+    const double error = std::max(hoop_error, std::abs(axial / cloth / exact.axial - 1.0));
+    RecordProperty("hoop_" + std::to_string(around), std::to_string(hoop / cloth / exact.hoop));
+    RecordProperty("axial_" + std::to_string(around), std::to_string(axial / cloth / exact.axial));
+    RecordProperty("hoop_error_" + std::to_string(around), std::to_string(hoop_error));
+    EXPECT_LT(error, 0.35 * last_error) << around;
+    last_error = error;
+  }
+  EXPECT_LT(last_error, 0.01);
+}
+
+/// Square of the largest frequency of the membrane's tangent stiffness on the nodal masses of the grid, 1/s^2.
+double largest_square(const TriangleMesh& mesh, const Membrane& membrane, const mpm::Grid<3>& grid)
+{
+  std::vector<Eigen::Index> row(grid.size(), -1);
+  Eigen::Index count = 0;
+  mpm::testing::for_each_node(grid, [&](std::size_t i, const std::array<int, 3>&) {
+    if (mpm::testing::node_mass(grid, i) > 0.0)
+      row[i] = 3 * count++;
+  });
+  // A row of B is what a piece feels in one direction, scaled by 1 / sqrt(m).
+  const auto pieces = static_cast<Eigen::Index>(2 * mesh.triangles.size());
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3 * pieces, 3 * count);
+  Eigen::Index at = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t f = 0; f < 2; ++f) {
+      const Triangle& nodes = mesh.triangles[t];
+      const double tension = (f == 0 ? membrane.warp_tension() : membrane.weft_tension())[t];
+      const double cloth = mesh.area(t) * mesh.fullness[t][0] * mesh.fullness[t][1];
+      const Vec3 normal =
+          (mesh.points[nodes[1]] - mesh.points[nodes[0]]).cross(mesh.points[nodes[2]] - mesh.points[nodes[0]]);
+      std::array<double, 3> c;
+      Vec3 g = Vec3::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 side = mesh.points[nodes[(k + 2) % 3]] - mesh.points[nodes[(k + 1) % 3]];
+        c[k] =
+            normal.cross(side).dot(f == 0 ? mesh.warp[t] : mesh.weft[t]) / normal.squaredNorm() / mesh.fullness[t][f];
+        g += c[k] * membrane.node(nodes[k]);
+      }
+      // J along the yarns and T / lambda across them, of what is taut.
+      const Vec3 along = g.normalized();
+      const Mat<3> root = (tension > 0.0 ? std::sqrt(cloth * stiffness) : 0.0) * along * along.transpose() +
+                          std::sqrt(cloth * tension / g.norm()) * (Mat<3>::Identity() - along * along.transpose());
+      for (std::size_t k = 0; k < 3; ++k)
+        mpm::testing::for_each_stencil_node<3>(
+            grid, membrane.node(nodes[k]), [&](std::size_t i, double w, const Vec3&, const Vec3&) {
+              if (row[i] >= 0)
+                b.block<3, 3>(at, row[i]) += c[k] * w / std::sqrt(mpm::testing::node_mass(grid, i)) * root;
+            });
+      at += 3;
+    }
+  // B B^T and B^T B have the same largest eigenvalue; the smaller of the two.
+  const Eigen::MatrixXd square =
+      b.rows() < b.cols() ? Eigen::MatrixXd(b * b.transpose()) : Eigen::MatrixXd(b.transpose() * b);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(square, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
+TEST(MembraneBound, IsAboveItsLargestFrequencyAndCloseToIt)
+{
+  double least = 1e9, most = 0.0;
+  for (int seed = 0; seed < 10; ++seed) {
+    Chance chance(static_cast<std::uint64_t>(seed));
+    const double segment = chance(0.5, 0.8), dx = segment / chance(0.6, 1.3);
+    const double full = chance(0.92, 1.0);
+    const TriangleMesh mesh =
+        wrap(circle(0.5, 12), { -0.4, chance(0.2, 0.5) }, { true, seed % 2 == 0 }, segment, { full, full, full });
+    Membrane membrane(mesh, parameters());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      set_vector<3>(membrane.nodes().position, i, mesh.points[i] + chance.vector<3>(0.05 * segment));
+    membrane.update_forces();
+    const double wide = dx * std::ceil(0.8 / dx);
+    const Vec3 shift = chance.vector<3>(dx);
+    mpm::Grid<3> grid(Vec3::Constant(-wide - dx) + shift, Vec3::Constant(wide + dx) + shift, dx,
+                      mpm::testing::free_faces<3>());
+    mpm::testing::open(mpm::testing::everything(grid), grid);
+    mpm::testing::sheet_to_grid<3>(membrane.nodes(), Vec3::Zero(), grid);
+    mpm::FrequencyBound<3> bound;
+    bound.begin(grid, {});
+    bound.add_mass(membrane.nodes());
+    membrane.add_stiffness(bound);
+    const double ratio = std::sqrt(bound.bound().frequency_square / largest_square(mesh, membrane, grid));
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  EXPECT_GE(least, 1.0);
+  EXPECT_LE(most, 2.0);
+  RecordProperty("least", std::to_string(least));
+  RecordProperty("most", std::to_string(most));
+}
+
+}  // namespace
+}  // namespace geocontainer_mpm::geotextile::testing
