@@ -113,7 +113,7 @@ contact::BoundaryBody<3> rigid_surface(const std::string& name, contact::Surface
                                        double spacing, const SceneDescription& scene)
 {
   const double from = scene.symmetry() == Symmetry::quarter ? 0.0 : scene.space->along_m[0];
-  return { name, std::move(section), contact::Along{ from, scene.space->along_m[1] }, friction, spacing };
+  return { name, std::move(section), Along{ from, scene.space->along_m[1] }, friction, spacing };
 }
 
 contact::BoundaryBody<3> bulkhead(const HullPart& part, double spacing, const HullDescription& hull)

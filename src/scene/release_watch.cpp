@@ -87,13 +87,13 @@ Vec3 middle_of(const geotextile::Membrane& sheet, std::size_t triangle)
   const auto& [a, b, c] = sheet.triangles()[triangle];
   return (sheet.node(a) + sheet.node(b) + sheet.node(c)) / 3.0;
 =======
-/// In plane strain particles keep yy, zz, yz, xx.
-SymmetricTensor barge_stress(const mpm::Particles<2>& particles, std::size_t p)
-{
-  const auto s = [&](std::size_t k) { return particles.stress[k][p]; };
-  return { s(3), s(0), s(1), 0.0, 0.0, s(2) };
+  /// In plane strain particles keep yy, zz, yz, xx.
+  SymmetricTensor barge_stress(const mpm::Particles<2>& particles, std::size_t p)
+  {
+    const auto s = [&](std::size_t k) { return particles.stress[k][p]; };
+    return { s(3), s(0), s(1), 0.0, 0.0, s(2) };
 >>>>>>> frame
-}
+  }
 
 }  // namespace
 
@@ -108,7 +108,8 @@ ReleaseWatch<Dim>::ReleaseWatch(const SceneDescription& scene)
 }
 
 template <int Dim>
-void ReleaseWatch<Dim>::observe(const Model<Dim>& model, double time_s, const barge::OpeningAngles& opening, double still_for_s)
+void ReleaseWatch<Dim>::observe(const Model<Dim>& model, double time_s, const barge::OpeningAngles& opening,
+                                double still_for_s)
 {
   if (initial_volume_ < 0.0) {
     initial_volume_ = soil_volume(model);
@@ -166,7 +167,7 @@ void ReleaseWatch<Dim>::measure(const ModelSheet<Dim>& what, double time_s, Cont
 
 template <int Dim>
 void ReleaseWatch<Dim>::judge(const ModelSheet<Dim>& sheet, double time_s, const barge::OpeningAngles& opening,
-                         double still_for_s, ContainerStatus& watched) const
+                              double still_for_s, ContainerStatus& watched) const
 {
   if (sheet.held || watched.outcome == Outcome::released ||
       (watched.outcome == Outcome::waiting && hull_->slot_width_m(opening) < open_slot_m))

@@ -17,11 +17,6 @@
 
 namespace geocontainer_mpm::contact {
 
-/// The stretch of x over which a section is extruded, m.
-struct Along {
-  double from = 0.0, to = 0.0;
-};
-
 template <int Dim>
 class BoundaryBody {
 public:

@@ -11,7 +11,6 @@
 
 namespace geocontainer_mpm::geotextile {
 
-using Vec3 = Vec<3>;
 using Triangle = std::array<std::uint32_t, 3>;  ///< points, against the clock seen from outside
 
 /// Pieces of cloth of a container, with seams between.
@@ -32,10 +31,6 @@ struct TriangleMesh {
   double area(std::size_t triangle) const;  ///< m^2
 };
 
-/// Where a container lies along the barge, m. An end that is not closed lies on a plane of symmetry.
-struct Along {
-  double from = 0.0, to = 0.0;
-};
 struct ClosedEnds {
   bool aft = false, bow = false;  ///< at `from`, at `to`
 };

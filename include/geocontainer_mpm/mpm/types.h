@@ -15,6 +15,11 @@ using Vec2 = Vec<2>;
 using Vec3 = Vec<3>;
 using Mat2 = Mat<2>;
 
+/// A stretch along the barge, x from and to, m.
+struct Along {
+  double from = 0.0, to = 0.0;
+};
+
 /// Where y and z are among the components.
 template <int Dim>
 inline constexpr int y_axis = Dim - 2;
