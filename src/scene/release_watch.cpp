@@ -86,20 +86,13 @@ Vec3 middle_of(const geotextile::Membrane& sheet, std::size_t triangle)
 {
   const auto& [a, b, c] = sheet.triangles()[triangle];
   return (sheet.node(a) + sheet.node(b) + sheet.node(c)) / 3.0;
-=======
-  /// In plane strain particles keep yy, zz, yz, xx.
-  SymmetricTensor barge_stress(const mpm::Particles<2>& particles, std::size_t p)
-  {
-    const auto s = [&](std::size_t k) { return particles.stress[k][p]; };
-    return { s(3), s(0), s(1), 0.0, 0.0, s(2) };
->>>>>>> frame
-  }
+}
 
 }  // namespace
 
 template <int Dim>
 ReleaseWatch<Dim>::ReleaseWatch(const SceneDescription& scene)
-    : hung_up_after_s_(scene.outcome.hung_up_after_s), watched_(scene.geotextiles.size())
+    : hung_up_after_s_(scene.outcome.hung_up_after_s), symmetry_(scene.symmetry()), watched_(scene.geotextiles.size())
 {
   if (scene.hull && !scene.geotextiles.empty())
     hull_.emplace(scene.hull->hinge_m, scene.hull->port_section_m, "hull");
@@ -198,6 +191,20 @@ Outcome ReleaseWatch<Dim>::outcome() const
 }
 
 template <int Dim>
+void ReleaseWatch<Dim>::complete(ContainerState& state) const
+{
+  const double across = symmetry_ == Symmetry::none ? 1.0 : 2.0, along = symmetry_ == Symmetry::quarter ? 2.0 : 1.0;
+  if (across > 1.0)
+    state.centroid_m[1] = 0.0;
+  if (along > 1.0)
+    state.centroid_m[0] = 0.0;
+  state.width_m *= across;
+  state.length_m *= along;
+  state.soil_volume *= across * along;
+  state.soil_volume_initial *= across * along;
+}
+
+template <int Dim>
 StatusFrame ReleaseWatch<Dim>::status(const Model<Dim>& model) const
 {
   StatusFrame status;
@@ -231,6 +238,7 @@ StatusFrame ReleaseWatch<Dim>::status(const Model<Dim>& model) const
     extent.add(sheet.sheet.nodes());
   status.centroid_m = in_barge_frame(model.centroid());
   extent.put_into(status);
+  complete(status);
   for (std::size_t s = 0; s < watched_.size(); ++s)
     if (model.sheets()[s].inside)
       status.containers.push_back(container(model, s));
@@ -255,6 +263,7 @@ ContainerStatus ReleaseWatch<Dim>::container(const Model<Dim>& model, std::size_
     mass += body.own_mass(p);
   }
   status.centroid_m /= mass;
+  complete(status);
   return status;
 }
 

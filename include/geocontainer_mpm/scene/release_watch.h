@@ -26,11 +26,14 @@ private:
   void judge(const ModelSheet<Dim>& sheet, double time_s, const barge::OpeningAngles& opening, double still_for_s,
              ContainerStatus& watched) const;
   Outcome outcome() const;
+  /// From the part that is computed to the whole: place, extent and volume.
+  void complete(ContainerState& state) const;
   /// With its present place, extent and volume.
   ContainerStatus container(const Model<Dim>& model, std::size_t sheet) const;
 
   std::optional<barge::SplitHull> hull_;
   double hung_up_after_s_;
+  Symmetry symmetry_;
   std::vector<ContainerStatus> watched_;  ///< in the order of the sheets, without what container() adds
   std::vector<bool> held_;                ///< bodies that had not started at the last look
   double initial_volume_ = -1.0;
