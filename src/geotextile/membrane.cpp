@@ -1,5 +1,6 @@
 #include "geocontainer_mpm/geotextile/membrane.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>

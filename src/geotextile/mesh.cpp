@@ -1,5 +1,6 @@
 #include "geocontainer_mpm/geotextile/mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -90,6 +91,15 @@ void require_no_overlap(const TriangleMesh& mesh, double segment_length)
   }
 }
 
+/// As divide(), with an open line's last point as it is: on its plane of symmetry, without round-off.
+SheetLayout divided(const SheetLayout& line, std::size_t sides)
+{
+  SheetLayout result{ divide(line, sides, line.closed ? sides : sides + 1), line.closed };
+  if (!line.closed)
+    result.points.back() = line.points.back();
+  return result;
+}
+
 class Builder {
 public:
   TriangleMesh mesh;
@@ -162,7 +172,7 @@ private:
     const auto sides = static_cast<std::size_t>(std::max(least, std::round(scale * static_cast<double>(line.sides()))));
     Ring ring;
     ring.closed = line.closed;
-    for (const Vec2& p : divide(plain, sides, line.closed ? sides : sides + 1)) {
+    for (const Vec2& p : divided(plain, sides).points) {
       const Vec2 at = middle + scale * (p - middle);
       ring.point.push_back(static_cast<std::uint32_t>(mesh.points.size()));
       mesh.points.emplace_back(x, at[0], at[1]);
@@ -212,7 +222,7 @@ TriangleMesh wrap(const SheetLayout& outline, const Along& along, const ClosedEn
   const double cloth = outline.cloth_length();
   const auto sides = static_cast<std::size_t>(std::max(outline.closed ? 3.0 : 1.0, std::round(cloth / segment_length)));
   const auto rows = static_cast<std::size_t>(std::max(1.0, std::round((along.to - along.from) / segment_length)));
-  const SheetLayout line{ divide(outline, sides, outline.closed ? sides : sides + 1), outline.closed };
+  const SheetLayout line = divided(outline, sides);
   const double sense = twice_area(line) < 0.0 ? -1.0 : 1.0;
   if (closed_ends.aft || closed_ends.bow)
     require_star_shape(line, inner_point(line), sense);

@@ -83,6 +83,36 @@ Gradients<Dim, Shape::linear_simplex> gradients(const Particles<Dim>& particles,
   return g;
 }
 
+/// Calls `visit(node, weight)` for all that a point reaches: what reach_of() gives, without its gradients, which take
+/// most of its time.
+template <int Dim, class Visitor>
+void visit_weights(Shape shape, const Vec<Dim>& point, const Grid<Dim>& grid, Visitor&& visit)
+{
+  if (shape == Shape::linear_simplex) {
+    const Reach<Dim, Dim + 1> reach = simplex_reach<Dim>(point, grid);
+    for (std::size_t k = 0; k < Dim + 1; ++k)
+      visit(reach.node[k], reach.weight[k]);
+    return;
+  }
+  std::array<double, Dim> x;
+  for (std::size_t d = 0; d < Dim; ++d)
+    x[d] = point[static_cast<Eigen::Index>(d)];
+  const Stencil<Dim> s = make_stencil<Dim>(x, grid.origin(), grid.dx(), grid.inverse_dx());
+  std::array<int, Dim> at = s.base;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      at[0] = s.base[0] + static_cast<int>(i);
+      at[1] = s.base[1] + static_cast<int>(j);
+      const double weight = s.weight[0][i] * s.weight[1][j];
+      const std::size_t row = grid.index(at);
+      if constexpr (Dim == 2)
+        visit(static_cast<std::uint32_t>(row), weight);
+      else
+        for (std::size_t l = 0; l < 3; ++l)
+          visit(static_cast<std::uint32_t>(row + l), weight * s.weight[2][l]);
+    }
+}
+
 /// The largest eigenvalue of D^(1/2) T D^(1/2) from above, for a matrix A with these invariants; see the header. Its
 /// part of normal strains, N = A^(1/2) D_n A^(1/2), has the characteristic polynomial
 ///     x^2 - M e1 x + (M^2 - lambda^2) e2                                             in the plane,
@@ -204,17 +234,15 @@ template <int Dim>
 void FrequencyBound<Dim>::add_span(const SpanPoint* points, std::size_t count, double stiffness)
 {
   const std::size_t first = segment_nodes_.size();
-  for (const SpanPoint* point = points; point < points + count; ++point) {
-    const AnyReach<Dim> reach = reach_of<Dim>(method_.shape, point->place, *grid_);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(reach.count); ++k) {
-      std::uint32_t& slot = slot_[reach.node[k]];
+  for (const SpanPoint* point = points; point < points + count; ++point)
+    visit_weights<Dim>(method_.shape, point->place, *grid_, [&](std::uint32_t node, double weight) {
+      std::uint32_t& slot = slot_[node];
       if (slot == 0) {
-        segment_nodes_.push_back({ reach.node[k], 0.0 });
+        segment_nodes_.push_back({ node, 0.0 });
         slot = static_cast<std::uint32_t>(segment_nodes_.size() - first);
       }
-      segment_nodes_[first + slot - 1].change += point->coefficient * reach.weight[k];
-    }
-  }
+      segment_nodes_[first + slot - 1].change += point->coefficient * weight;
+    });
   for (std::size_t at = first; at < segment_nodes_.size(); ++at) {
     segment_nodes_[at].change = std::abs(segment_nodes_[at].change);
     slot_[segment_nodes_[at].node] = 0;

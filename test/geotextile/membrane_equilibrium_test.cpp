@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "../mpm/random_cloud.h"
@@ -39,7 +40,7 @@ MembraneParameters parameters()
   return p;
 }
 
-/// One explicit step of nodes on their own, held where `held` says so.
+/// One explicit step of nodes on their own, held where `held` says so, with gravity and some damping.
 template <int Dim>
 void step(double dt, const std::vector<bool>& held, mpm::Particles<Dim>& nodes)
 {
@@ -47,48 +48,89 @@ void step(double dt, const std::vector<bool>& held, mpm::Particles<Dim>& nodes)
     if (held[i])
       continue;
     for (std::size_t d = 0; d < Dim; ++d) {
-      nodes.velocity[d][i] += dt * nodes.force[d][i] / nodes.mass[i];
+      nodes.velocity[d][i] = 0.998 * (nodes.velocity[d][i] + dt * nodes.force[d][i] / nodes.mass[i]);
       nodes.position[d][i] += dt * nodes.velocity[d][i];
     }
     nodes.velocity[Dim - 1][i] -= dt * 9.81;
   }
 }
 
-TEST(MembraneEquilibrium, AHangingStripMovesAsTheSheetInPlaneStrain)
-{
-  // Laid straight between two points, slack by 10 %, with a fuller half: it falls, tightens and swings.
+/// The same sheet in plane strain and half a metre wide, laid between two points with 10 % of slack and a fuller half.
+struct Strips {
   SheetLayout line{ { { 0.0, 0.0 }, { 1.0, 0.5 }, { 2.0, 0.4 } }, false, { 1.0, 1.2 } };
-  SheetParameters in_plane;
-  in_plane.stiffness = stiffness;
-  in_plane.mass = in_plane.computational_mass = 1.0;
-  in_plane.segment_length = in_plane.gauge_length = 0.1;
-  in_plane.unstretched_length = 1.1 * line.cloth_length();
-  Sheet sheet(line, in_plane);
-  Membrane membrane(wrap(line, { 0.0, 0.5 }, {}, 0.1, { 1.1, 1.0, 1.0 }), parameters());
-  const std::size_t n = sheet.nodes().size(), rows = membrane.nodes().size() / n;
-  ASSERT_EQ(rows * n, membrane.nodes().size());
-  std::vector<bool> held(membrane.nodes().size(), false);
-  for (std::size_t j = 0; j < rows; ++j)
-    held[j * n] = held[j * n + n - 1] = true;
-  const double dt = 0.5 * in_plane.segment_length / std::sqrt(stiffness);
-  double peak = 0.0, apart = 0.0;
-  for (int k = 0; k < 4000; ++k) {
-    sheet.update_forces();
-    membrane.update_forces();
-    for (std::size_t i = 0; i < sheet.segments(); ++i) {
-      peak = std::max(peak, sheet.tension()[i]);
-      for (std::size_t j = 0; j + 1 < rows; ++j)
-        for (const std::size_t t : { 2 * (j * (n - 1) + i), 2 * (j * (n - 1) + i) + 1 })
-          ASSERT_NEAR(membrane.warp_tension()[t], sheet.tension()[i], 1e-8 * stiffness) << k;
-    }
-    step<2>(dt, held, sheet.nodes());
-    step<3>(dt, held, membrane.nodes());
-    for (std::size_t i = 0; i < membrane.nodes().size(); ++i)
-      apart = std::max(apart, (membrane.node(i).tail<2>() - sheet.node(i % n)).norm());
+  Sheet sheet;
+  Membrane membrane;
+  std::size_t n, rows;
+
+  Strips()
+      : sheet(line, in_plane(1.1 * line.cloth_length()))
+      , membrane(wrap(line, { 0.0, 0.5 }, {}, 0.1, { 1.1, 1.0, 1.0 }), parameters())
+      , n(sheet.nodes().size())
+      , rows(membrane.nodes().size() / n)
+  {
   }
-  EXPECT_GT(peak, 0.01 * stiffness);
-  EXPECT_NEAR(membrane.elastic_energy(), 0.5 * sheet.elastic_energy(), 1e-8 * sheet.elastic_energy());  // 0.5 m wide
-  EXPECT_LT(apart, 1e-9);  // round-off, grown by the sheet's fall
+  static SheetParameters in_plane(double length)
+  {
+    SheetParameters p;
+    p.unstretched_length = length;
+    p.stiffness = stiffness;
+    p.mass = p.computational_mass = 1.0;
+    p.segment_length = p.gauge_length = 0.1;
+    return p;
+  }
+  /// Largest difference of the tensions of triangles from those of their segments.
+  double tensions_apart() const
+  {
+    double apart = 0.0;
+    for (std::size_t t = 0; t < membrane.triangles().size(); ++t)
+      apart = std::max(apart, std::abs(membrane.warp_tension()[t] - sheet.tension()[t / 2 % sheet.segments()]));
+    return apart;
+  }
+};
+
+TEST(MembraneEquilibrium, AStripPullsAsTheSheetInPlaneStrainWhateverItsShape)
+{
+  Strips s;
+  ASSERT_EQ(s.rows * s.n, s.membrane.nodes().size());
+  Chance chance(1);
+  for (int k = 0; k < 100; ++k) {
+    for (std::size_t i = 0; i < s.n; ++i) {
+      const Vec2 x = s.sheet.node(i) + chance.vector<2>(0.05);
+      set_vector<2>(s.sheet.nodes().position, i, x);
+      for (std::size_t j = 0; j < s.rows; ++j)
+        set_vector<3>(s.membrane.nodes().position, j * s.n + i, Vec3(0.1 * static_cast<double>(j), x[0], x[1]));
+    }
+    s.sheet.update_forces();
+    s.membrane.update_forces();
+    ASSERT_LT(s.tensions_apart(), 1e-12 * stiffness);
+    for (std::size_t i = 0; i < s.membrane.nodes().size(); ++i) {
+      const double width = i < s.n || i >= (s.rows - 1) * s.n ? 0.05 : 0.1;
+      const Vec3 force = vector_at<3>(s.membrane.nodes().force, i);
+      ASSERT_LT((force.tail<2>() - width * vector_at<2>(s.sheet.nodes().force, i % s.n)).norm(), 1e-12 * stiffness);
+      ASSERT_LT(std::abs(force[0]), 1e-12 * stiffness);  // unstretched along x but for round-off
+      ASSERT_NEAR(s.membrane.nodes().mass[i], width * s.sheet.nodes().mass[i % s.n], 1e-14);
+    }
+  }
+}
+
+TEST(MembraneEquilibrium, AStripHangsAsTheSheetInPlaneStrain)
+{
+  Strips s;
+  std::vector<bool> held(s.membrane.nodes().size(), false);
+  for (std::size_t j = 0; j < s.rows; ++j)
+    held[j * s.n] = held[j * s.n + s.n - 1] = true;
+  const double dt = 0.5 * 0.1 / std::sqrt(stiffness);
+  // Until it hangs at rest: on the way there from slack round-off grows.
+  for (int k = 0; k < 30000; ++k) {
+    s.sheet.update_forces();
+    s.membrane.update_forces();
+    step<2>(dt, held, s.sheet.nodes());
+    step<3>(dt, held, s.membrane.nodes());
+  }
+  EXPECT_GT(s.sheet.tension()[0], 1.0);
+  EXPECT_LT(s.tensions_apart(), 1e-9 * stiffness);
+  for (std::size_t i = 0; i < s.membrane.nodes().size(); ++i)
+    EXPECT_LT((s.membrane.node(i).tail<2>() - s.sheet.node(i % s.n)).norm(), 1e-9);
 }
 
 /// Masses with which a time step of 1 is stable: half of the largest sum of a row of the stiffness (Gershgorin; the
@@ -153,40 +195,88 @@ Vessel closed_form(double pressure, double radius)
   return v;
 }
 
+/// Over the closed form, in the middle third of the wall: mean over the cloth, and the worst triangle's hoop tension.
+/// Axial tension is only right in the mean: an end is a square net, which pulls at the wall by a fifth more or less
+/// from place to place, and no shear evens that out.
+struct Middle {
+  double hoop = 0.0, axial = 0.0, worst_hoop = 0.0;
+};
+Middle middle_of(const TriangleMesh& mesh, const Membrane& membrane, double length, const Vessel& exact)
+{
+  Middle m;
+  double cloth = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double x = mesh.points[mesh.triangles[t][0]][0];
+    if (mesh.panel[t] != Panel::wall || std::abs(x - 0.5 * length) > length / 6.0)
+      continue;
+    const double hoop = membrane.warp_tension()[t] / exact.hoop;
+    cloth += mesh.area(t);
+    m.hoop += mesh.area(t) * hoop;
+    m.axial += mesh.area(t) * membrane.weft_tension()[t] / exact.axial;
+    m.worst_hoop = std::max(m.worst_hoop, std::abs(hoop - 1.0));
+  }
+  m.hoop /= cloth;
+  m.axial /= cloth;
+  return m;
+}
+
 TEST(MembraneEquilibrium, APressureVesselHasItsHoopAndAxialTension)
 {
-  const double radius = 1.0, length = 3.0, pressure = 0.02 * stiffness;
+  const double radius = 1.0, length = 6.0, pressure = 0.02 * stiffness;
   const Vessel exact = closed_form(pressure, radius);
   MembraneLoad load;
   load.pressure = pressure;
   double last_error = 1.0;
   for (const int around : { 12, 24, 48 }) {
-    const double segment = 2.0 * pi * radius / around;
+    const double segment = 2.0 * pi * radius / around, at_rest = 1e-5 * pressure * segment * segment;
     const TriangleMesh mesh = wrap(circle(radius), { 0.0, length }, { true, true }, segment);
     Membrane membrane(mesh, parameters());
-    const double left = relax(load, relaxation_masses(mesh), 1e-4 * pressure * segment * segment, 6000, membrane);
-    EXPECT_LT(left, 1e-4 * pressure * segment * segment) << "not at rest";
-    // Hoop tension in the middle third of the wall; axial tension as its mean over the cloth there.
-    double hoop = 0.0, axial = 0.0, cloth = 0.0, hoop_error = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const double x = (mesh.points[mesh.triangles[t][0]][0] + mesh.points[mesh.triangles[t][1]][0] +
-                        mesh.points[mesh.triangles[t][2]][0]) /
-                       3.0;
-      if (mesh.panel[t] != Panel::wall || std::abs(x - 0.5 * length) > length / 6.0)
-        continue;
-      cloth += mesh.area(t);
-      hoop += mesh.area(t) * membrane.warp_tension()[t];
-      axial += mesh.area(t) * membrane.weft_tension()[t];
-      hoop_error = std::max(hoop_error, std::abs(membrane.warp_tension()[t] / exact.hoop - 1.0));
-    }
-    const double error = std::max(hoop_error, std::abs(axial / cloth / exact.axial - 1.0));
-    RecordProperty("hoop_" + std::to_string(around), std::to_string(hoop / cloth / exact.hoop));
-    RecordProperty("axial_" + std::to_string(around), std::to_string(axial / cloth / exact.axial));
-    RecordProperty("hoop_error_" + std::to_string(around), std::to_string(hoop_error));
-    EXPECT_LT(error, 0.35 * last_error) << around;
+    EXPECT_LT(relax(load, relaxation_masses(mesh), at_rest, 20000, membrane), at_rest);
+    const Middle m = middle_of(mesh, membrane, length, exact);
+    RecordProperty("hoop_" + std::to_string(around), std::to_string(m.hoop));
+    RecordProperty("axial_" + std::to_string(around), std::to_string(m.axial));
+    RecordProperty("worst_hoop_" + std::to_string(around), std::to_string(m.worst_hoop));
+    const double error = std::max(m.worst_hoop, std::abs(m.axial - 1.0));
+    EXPECT_LT(error, 0.35 * last_error) << around;  // second order in the segment's length
     last_error = error;
   }
-  EXPECT_LT(last_error, 0.01);
+  EXPECT_LT(last_error, 0.003);
+}
+
+TEST(MembraneEquilibrium, OnTheGridItComesToRestThereAtTheStepOfItsBound)
+{
+  const double radius = 1.0, length = 3.0, segment = 2.0 * pi * radius / 24.0;
+  const TriangleMesh mesh = wrap(circle(radius), { 0.0, length }, { true, true }, segment);
+  Membrane membrane(mesh, parameters());
+  mpm::Particles<3>& nodes = membrane.nodes();
+  const Vec3 room(1.0, 1.4, 1.4);
+  mpm::Grid<3> grid(-room, room + Vec3(length, 0.0, 0.0), segment, mpm::testing::free_faces<3>());
+  MembraneLoad load;
+  load.pressure = 0.02 * stiffness;
+  mpm::FrequencyBound<3> bound;
+  double last = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    membrane.update_forces(load);
+    mpm::testing::open(mpm::testing::everything(grid), grid);
+    mpm::testing::sheet_to_grid<3>(nodes, Vec3::Zero(), grid);
+    bound.begin(grid, {});
+    bound.add_mass(nodes);
+    membrane.add_stiffness(bound);
+    const double dt = mpm::stable_step(bound.bound().frequency_square, 0.0, {});
+    mpm::testing::apply_forces(grid, 0.5 * (last + dt), 30.0);
+    mpm::grid_to_particles<3>({}, grid, dt, mpm::Gather::motion, nodes, 0, nodes.size());
+    last = dt;
+  }
+  double kinetic = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    kinetic += 0.5 * nodes.mass[i] * vector_at<3>(nodes.velocity, i).squaredNorm();
+  EXPECT_LT(kinetic, 1e-2 * membrane.elastic_energy());  // 0.26 of it at first
+  const Middle m = middle_of(mesh, membrane, length, closed_form(load.pressure, radius));
+  RecordProperty("hoop", std::to_string(m.hoop));
+  RecordProperty("axial", std::to_string(m.axial));
+  // Off the grid the same mesh is 0.7 % below; cells as long as the segments smear the force over the wall's curve.
+  EXPECT_NEAR(m.hoop, 1.0, 0.02);
+  EXPECT_NEAR(m.axial, 1.0, 0.02);
 }
 
 /// Square of the largest frequency of the membrane's tangent stiffness on the nodal masses of the grid, 1/s^2.
@@ -238,12 +328,11 @@ double largest_square(const TriangleMesh& mesh, const Membrane& membrane, const 
 TEST(MembraneBound, IsAboveItsLargestFrequencyAndCloseToIt)
 {
   double least = 1e9, most = 0.0;
-  for (int seed = 0; seed < 10; ++seed) {
-    Chance chance(static_cast<std::uint64_t>(seed));
+  EXPECT_TRUE(mpm::testing::holds("bound", [&](Chance& chance) {
     const double segment = chance(0.5, 0.8), dx = segment / chance(0.6, 1.3);
     const double full = chance(0.92, 1.0);
-    const TriangleMesh mesh =
-        wrap(circle(0.5, 12), { -0.4, chance(0.2, 0.5) }, { true, seed % 2 == 0 }, segment, { full, full, full });
+    const TriangleMesh mesh = wrap(circle(0.5, 12), { -0.4, chance(0.2, 0.5) }, { true, chance.whole(0, 1) == 0 },
+                                   segment, { full, full, full });
     Membrane membrane(mesh, parameters());
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
       set_vector<3>(membrane.nodes().position, i, mesh.points[i] + chance.vector<3>(0.05 * segment));
@@ -261,9 +350,9 @@ TEST(MembraneBound, IsAboveItsLargestFrequencyAndCloseToIt)
     const double ratio = std::sqrt(bound.bound().frequency_square / largest_square(mesh, membrane, grid));
     least = std::min(least, ratio);
     most = std::max(most, ratio);
-  }
-  EXPECT_GE(least, 1.0);
-  EXPECT_LE(most, 2.0);
+    RC_ASSERT(ratio >= 1.0 - 1e-9);  // round-off of the dense solve
+    RC_ASSERT(ratio <= 2.0);
+  }));
   RecordProperty("least", std::to_string(least));
   RecordProperty("most", std::to_string(most));
 }

@@ -379,7 +379,9 @@ TEST(Membrane, GaugeIsAMeanOverItsLengthWithinAPanel)
   }
   EXPECT_GT(raw_sum, 0.0);
   EXPECT_NEAR(mean_sum, raw_sum, 0.03 * raw_sum);  // windows of triangles of two kinds differ a little in number
-  EXPECT_NEAR(touched * 0.005, pi * 0.0625, 0.5 * pi * 0.0625);
+  const double reached = touched * 0.005;          // by the gauge's circle around triangles at that node
+  EXPECT_GT(reached, pi * 0.25 * 0.25);
+  EXPECT_LT(reached, pi * 0.35 * 0.35);
 }
 
 TEST(Membrane, RefusesATriangleWithoutArea)
