@@ -74,7 +74,9 @@ Places<3> places(const Sampling& section, const BodyDescription& body, Symmetry 
 {
   Places<3> result;
   const double from = (*body.along_m)[0], length = (*body.along_m)[1] - from;
-  const int rows = std::max(1, static_cast<int>(std::lround(length / spacing)));
+  // More than one are an even number, so that a plane of symmetry has whole rows on both sides.
+  const int wanted = std::max(1, static_cast<int>(std::lround(length / spacing))),
+            rows = wanted > 1 ? 2 * ((wanted + 1) / 2) : 1;
   const double step = length / rows;
   for (int k = 0; k < rows; ++k) {
     const double x = from + (k + 0.5) * step;

@@ -16,6 +16,10 @@ namespace {
 constexpr double bound_valid_cells = 0.1;
 constexpr int bound_valid_steps = 50;
 
+/// So far outside the grid a particle is still in it, cells: nodes of a sheet lie in planes of symmetry, but for
+/// round-off.
+constexpr double edge_cells = 1e-6;
+
 /// By how much a consistent mass matrix raises the largest squared frequency and damping rate: its smallest eigenvalue
 /// relative to the lumped one is at worst the lumped part of it.
 template <int Dim>
@@ -95,15 +99,17 @@ void Model<Dim>::survey()
     field.extent_lower = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
     field.extent_upper = -field.extent_lower;
   }
+  const double edge = edge_cells * fields_.front().grid.dx();
+  const Vec<Dim> lower = lower_.array() - edge, upper = upper_.array() + edge;
   const auto take = [&](const std::string& name, std::size_t f, const mpm::Particles<Dim>& particles, bool has_volume) {
-    const Look<Dim> look = look_at<Dim>(particles, has_volume, lower_, upper_);
+    const Look<Dim> look = look_at<Dim>(particles, has_volume, lower, upper);
     fields_[f].extent_lower = fields_[f].extent_lower.cwiseMin(look.lower);
     fields_[f].extent_upper = fields_[f].extent_upper.cwiseMax(look.upper);
     fastest_square = std::max(fastest_square, look.fastest_square);
     if (look.sound || !now_.health.ok)
       return;
     now_.health.ok = false;
-    now_.health.failure = find_culprit(name, particles, has_volume, lower_, upper_);
+    now_.health.failure = find_culprit(name, particles, has_volume, lower, upper);
   };
   for (const Body& body : now_.bodies)
     take(body.name, body.field, body.particles, true);
