@@ -57,37 +57,39 @@ inline Brute brute_nearest(const std::vector<Vec2>& line, const Vec2& x)
 }
 
 /// Material on a grid, its velocities updated by the forces of a step: what a solver is given.
-struct Patch {
-  mpm::Grid<2> grid;
-  mpm::Particles<2> points;
+template <int Dim>
+struct PatchIn {
+  mpm::Grid<Dim> grid;
+  mpm::Particles<Dim> points;
 
-  explicit Patch(const std::vector<Vec2>& at) : grid({ -1.0, -1.0 }, { 1.0, 1.0 }, 0.1, mpm::testing::free_faces<2>())
+  explicit PatchIn(const std::vector<Vec<Dim>>& at, double half_edge = 1.0)
+      : grid(Vec<Dim>::Constant(-half_edge), Vec<Dim>::Constant(half_edge), 0.1, mpm::testing::free_faces<Dim>())
   {
     points.resize(at.size());
     for (std::size_t p = 0; p < at.size(); ++p) {
-      set_vector<2>(points.position, p, at[p]);
+      set_vector<Dim>(points.position, p, at[p]);
       points.mass[p] = points.weight_mass[p] = 3.0;
     }
   }
   std::size_t size() const { return points.size(); }
-  Vec2 at(std::size_t p) const { return vector_at<2>(points.position, p); }
-  void set_velocity(std::size_t p, const Vec2& v) { set_vector<2>(points.velocity, p, v); }
-  void set_velocity(const Vec2& v)
+  Vec<Dim> at(std::size_t p) const { return vector_at<Dim>(points.position, p); }
+  void set_velocity(std::size_t p, const Vec<Dim>& v) { set_vector<Dim>(points.velocity, p, v); }
+  void set_velocity(const Vec<Dim>& v)
   {
     for (std::size_t p = 0; p < size(); ++p)
       set_velocity(p, v);
   }
-  void to_grid(const Vec2& gravity = Vec2::Zero(), double kick = 0.0)
+  void to_grid(const Vec<Dim>& gravity = Vec<Dim>::Zero(), double kick = 0.0)
   {
     mpm::testing::open(mpm::testing::everything(grid), grid);
-    mpm::sheet_to_grid<2>({}, points, mpm::Part::all, gravity, grid);
+    mpm::sheet_to_grid<Dim>({}, points, mpm::Part::all, gravity, grid);
     mpm::testing::apply_forces(grid, kick, 0.0);
   }
-  Vec2 velocity_at(const Vec2& x) const { return mpm::testing::interpolated<2>(grid, x); }
-  Vec2 momentum() const
+  Vec<Dim> velocity_at(const Vec<Dim>& x) const { return mpm::testing::interpolated<Dim>(grid, x); }
+  Vec<Dim> momentum() const
   {
-    Vec2 sum = Vec2::Zero();
-    mpm::testing::for_each_node(grid, [&](std::size_t i, const std::array<int, 2>&) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    mpm::testing::for_each_node(grid, [&](std::size_t i, const std::array<int, Dim>&) {
       sum += mpm::testing::node_mass(grid, i) * mpm::testing::node_vector(grid, i);
     });
     return sum;
@@ -95,18 +97,29 @@ struct Patch {
   double kinetic() const
   {
     double sum = 0.0;
-    mpm::testing::for_each_node(grid, [&](std::size_t i, const std::array<int, 2>&) {
+    mpm::testing::for_each_node(grid, [&](std::size_t i, const std::array<int, Dim>&) {
       sum += 0.5 * mpm::testing::node_mass(grid, i) * mpm::testing::node_vector(grid, i).squaredNorm();
     });
     return sum;
   }
 };
+using Patch = PatchIn<2>;
 
 /// A straight wall through `point`, long enough, whose free side is where `normal` looks; at rest.
 inline BoundaryBody<2> wall(const Vec2& point, const Vec2& normal, double friction)
 {
   const Vec2 tangent(normal[1], -normal[0]);
   BoundaryBody<2> body("wall", Surface({ point - 3.0 * tangent, point + 3.0 * tangent }), friction, 0.05);
+  body.set_motion({}, {}, 1e-3);
+  return body;
+}
+
+/// The same in space, along x.
+inline BoundaryBody<3> long_wall(const Vec2& point, const Vec2& normal, double friction)
+{
+  const Vec2 tangent(normal[1], -normal[0]);
+  BoundaryBody<3> body("wall", Surface({ point - 3.0 * tangent, point + 3.0 * tangent }), Along{ -3.0, 3.0 }, friction,
+                       0.5);
   body.set_motion({}, {}, 1e-3);
   return body;
 }

@@ -170,5 +170,19 @@ TEST(RigidPose, TurnsPortUpwardsAndBack)
   }));
 }
 
+TEST(RigidPose, MovesInSpaceAsInTheSectionAndLeavesXAlone)
+{
+  EXPECT_TRUE(holds("space", [](Chance& chance) {
+    const RigidPose pose = RigidPose::motion(chance(-4.0, 4.0), chance.vector<2>(5.0), chance.vector<2>(5.0));
+    const Vec<3> x = chance.vector<3>(5.0);
+    RC_ASSERT(pose.apply(x) == with_section(x, pose.apply(in_section(x))));
+    RC_ASSERT(pose.turn(x) == with_section(x, pose.turn(in_section(x))));
+    RC_ASSERT(pose.invert(x) == with_section(x, pose.invert(in_section(x))));
+    RC_ASSERT(pose.turn_back(x) == with_section(x, pose.turn_back(in_section(x))));
+    RC_ASSERT(apart(pose.invert(pose.apply(x)), x) < 1e-13);
+    RC_ASSERT(apart(pose.turn_back(pose.turn(x)), x) < 1e-13);
+  }));
+}
+
 }  // namespace
 }  // namespace geocontainer_mpm::contact::testing
