@@ -34,13 +34,56 @@ Vec<Dim> vector_of(const typename mpm::Grid<Dim>::Node& node)
   return node.matrix().template head<Dim>();
 }
 
-template <int Dim, class Handle>
-Vec<Dim> velocity_of(const Handle& handle, const mpm::Grid<Dim>& grid)
+/// Whether a point reaches nodes on or beyond a face that mirrors.
+template <int Dim>
+bool is_near_mirror(const Vec<Dim>& point, const mpm::Grid<Dim>& grid)
 {
-  typename mpm::Grid<Dim>::Node sum = mpm::Grid<Dim>::Node::Zero();
-  for (std::size_t k = 0; k < handle.count; ++k)
-    sum += handle.weight[k] * grid.nodes()[handle.node[k]];
-  return vector_of<Dim>(sum);
+  constexpr double reach_cells = 1.5;
+  for (int d = 0; d < Dim; ++d) {
+    const double at = (point[d] - grid.origin()[d]) * grid.inverse_dx();
+    const auto mirrors = [&](int side) {
+      return grid.faces()[static_cast<std::size_t>(2 * d + side)] != mpm::FaceCondition::free;
+    };
+    if ((mirrors(0) && at < grid.low_face(d) + reach_cells) || (mirrors(1) && at > grid.high_face(d) - reach_cells))
+      return true;
+  }
+  return false;
+}
+
+/// A node, and what of a vector there each direction keeps.
+template <int Dim>
+struct Image {
+  std::array<int, Dim> node;
+  Vec<Dim> sign = Vec<Dim>::Ones();
+};
+
+/// Where a node stands whose image may be inside.
+template <int Dim>
+Image<Dim> image_of(std::uint32_t storage_index, const mpm::Grid<Dim>& grid)
+{
+  Image<Dim> image;
+  std::size_t rest = storage_index;
+  for (int d = Dim - 1; d >= 0; --d) {
+    const auto slot = static_cast<std::size_t>(d), count = static_cast<std::size_t>(grid.counts()[slot]);
+    image.node[slot] = static_cast<int>(rest % count);
+    rest /= count;
+  }
+  for (int d = 0; d < Dim; ++d)
+    for (int side = 0; side < 2; ++side) {
+      const mpm::FaceCondition condition = grid.faces()[static_cast<std::size_t>(2 * d + side)];
+      if (condition == mpm::FaceCondition::free)
+        continue;
+      const int face = side == 0 ? grid.low_face(d) : grid.high_face(d), outwards = side == 0 ? -1 : 1;
+      int& at = image.node[static_cast<std::size_t>(d)];
+      const int beyond = outwards * (at - face);
+      at = beyond > 0 ? 2 * face - at : at;
+      for (int c = 0; c < Dim; ++c) {
+        const bool held = condition == mpm::FaceCondition::fixed || c == d;
+        if (held && beyond >= 0)
+          image.sign[c] *= beyond > 0 ? -1.0 : 0.0;
+      }
+    }
+  return image;
 }
 
 template <int Dim>
@@ -94,7 +137,8 @@ Vec<Dim> ContactSolver<Dim>::impulse_of(const Load& load, const Vec<Dim>& normal
 
 template <int Dim>
 template <class Reach>
-typename ContactSolver<Dim>::Handle ContactSolver<Dim>::make_handle(const Reach& reach, const mpm::Grid<Dim>& grid)
+typename ContactSolver<Dim>::Handle ContactSolver<Dim>::make_handle(const Reach& reach, const Vec<Dim>& point,
+                                                                    const mpm::Grid<Dim>& grid)
 {
   Handle handle;
   handle.count = static_cast<std::size_t>(reach.count);
@@ -107,7 +151,54 @@ typename ContactSolver<Dim>::Handle ContactSolver<Dim>::make_handle(const Reach&
     if (mass > 0.0)
       handle.compliance += handle.weight[k] * handle.weight[k] / mass;
   }
+  if (is_near_mirror(point, grid))
+    mirror(grid, handle);
   return handle;
+}
+
+template <int Dim>
+void ContactSolver<Dim>::mirror(const mpm::Grid<Dim>& grid, Handle& handle)
+{
+  Mirrored shares;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < handle.count; ++k) {
+    const Image<Dim> image = image_of(handle.node[k], grid);
+    const auto node = static_cast<std::uint32_t>(grid.index(image.node));
+    std::size_t at = 0;
+    while (at < count && handle.node[at] != node)
+      ++at;
+    if (at == count) {
+      handle.node[count] = node;  // at most k: those before are done with
+      shares.weight[count++] = Vec<Dim>::Zero();
+    }
+    shares.weight[at] += handle.weight[k] * image.sign;
+  }
+  handle.count = count;
+  shares.compliance = Vec<Dim>::Zero();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double mass = grid.nodes()[handle.node[k]][mass_slot];
+    shares.mobility[k] = mass > 0.0 ? Vec<Dim>(shares.weight[k] / mass) : Vec<Dim>(Vec<Dim>::Zero());
+    shares.compliance += shares.weight[k].cwiseProduct(shares.mobility[k]);
+  }
+  handle.compliance = shares.compliance.maxCoeff();
+  handle.mirrored = static_cast<int>(mirrored_.size());
+  mirrored_.push_back(shares);
+}
+
+template <int Dim>
+Vec<Dim> ContactSolver<Dim>::velocity_of(const Handle& handle, const mpm::Grid<Dim>& grid) const
+{
+  if (handle.mirrored != Handle::none) {
+    const Mirrored& shares = mirrored_[static_cast<std::size_t>(handle.mirrored)];
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = 0; k < handle.count; ++k)
+      sum += shares.weight[k].cwiseProduct(vector_of<Dim>(grid.nodes()[handle.node[k]]));
+    return sum;
+  }
+  typename mpm::Grid<Dim>::Node sum = mpm::Grid<Dim>::Node::Zero();
+  for (std::size_t k = 0; k < handle.count; ++k)
+    sum += handle.weight[k] * grid.nodes()[handle.node[k]];
+  return vector_of<Dim>(sum);
 }
 
 template <int Dim>
@@ -126,7 +217,7 @@ void ContactSolver<Dim>::collect(std::uint32_t index, const BoundaryBody<Dim>& b
       continue;
     Contact contact;
     mpm::visit_reach_of<Dim>(shape_, particles, p, grid,
-                             [&](const auto& near) { contact.handle = make_handle(near, grid); });
+                             [&](const auto& near) { contact.handle = make_handle(near, point, grid); });
     contact.normal = surface.normal;
     contact.approach = least_velocity(gap, dt);
     contact.body = index;
@@ -147,6 +238,7 @@ void ContactSolver<Dim>::begin(const std::vector<BoundaryBody<Dim>>& bodies,
                                double dt, const mpm::Grid<Dim>& grid, ContactSums<Dim>& sums)
 {
   contacts_.clear();
+  mirrored_.clear();
   others_.clear();
   widest_.clear();
   std::size_t pairs = 0;
@@ -175,7 +267,7 @@ void ContactSolver<Dim>::begin(const std::vector<BoundaryBody<Dim>>& bodies,
   anchor_memory_.resize(anchors.size(), Vec<Dim>::Zero());
   holds_.clear();
   for (std::size_t a = 0; a < anchors.size(); ++a)
-    holds_.push_back({ make_handle(mpm::reach_of<Dim>(shape_, anchors[a].point, grid), grid),
+    holds_.push_back({ make_handle(mpm::reach_of<Dim>(shape_, anchors[a].point, grid), anchors[a].point, grid),
                        (anchors[a].target - anchors[a].point) / dt, anchor_memory_[a] });
 }
 
@@ -207,10 +299,26 @@ void ContactSolver<Dim>::remember_untouched(const mpm::Grid<Dim>& grid)
 template <int Dim>
 void ContactSolver<Dim>::push(const Handle& handle, const Vec<Dim>& impulse, mpm::Grid<Dim>& grid) const
 {
+  if (handle.mirrored != Handle::none) {
+    const Mirrored& shares = mirrored_[static_cast<std::size_t>(handle.mirrored)];
+    for (std::size_t k = 0; k < handle.count; ++k)
+      grid.nodes()[handle.node[k]].matrix().template head<Dim>() += shares.mobility[k].cwiseProduct(impulse);
+    return;
+  }
   typename mpm::Grid<Dim>::Node both = mpm::Grid<Dim>::Node::Zero();
   both.matrix().template head<Dim>() = impulse;
   for (std::size_t k = 0; k < handle.count; ++k)
     grid.nodes()[handle.node[k]] += handle.mobility[k] * both;
+}
+
+/// Normal velocity per normal impulse. Friction takes the largest of all directions: never too much of it at once.
+template <int Dim>
+double ContactSolver<Dim>::compliance_along(const Contact& contact) const
+{
+  if (contact.handle.mirrored == Handle::none)
+    return contact.handle.compliance;
+  const Vec<Dim>& by_direction = mirrored_[static_cast<std::size_t>(contact.handle.mirrored)].compliance;
+  return std::max(1e-6 * contact.handle.compliance, by_direction.dot(contact.normal.cwiseAbs2()));
 }
 
 /// Makes one contact right given all others. Returns the change of the point's velocity, m/s.
@@ -218,10 +326,10 @@ template <int Dim>
 double ContactSolver<Dim>::relax(Contact& contact, mpm::Grid<Dim>& grid) const
 {
   const Vec<Dim> slip = velocity_of(contact.handle, grid) - contact.velocity;
-  const double compliance = contact.handle.compliance;
+  const double compliance = contact.handle.compliance, along_normal = compliance_along(contact);
   const Load before = contact.load;
   Load& load = contact.load;
-  load.pressed = std::max(0.0, before.pressed + (contact.approach - slip.dot(contact.normal)) / compliance);
+  load.pressed = std::max(0.0, before.pressed + (contact.approach - slip.dot(contact.normal)) / along_normal);
   load.dragged =
       within<Dim>(before.dragged - along_surface(slip, contact.normal) / compliance, contact.friction * load.pressed);
   const Vec<Dim> impulse = impulse_of({ load.pressed - before.pressed, load.dragged - before.dragged }, contact.normal);

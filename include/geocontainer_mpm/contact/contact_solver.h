@@ -114,7 +114,15 @@ private:
     std::array<double, mpm::most_nodes<Dim>> weight;    ///< zero where there is no mass
     std::array<double, mpm::most_nodes<Dim>> mobility;  ///< weight over mass, 1/kg
     std::size_t count;
-    double compliance;  ///< velocity at the point per unit impulse on it, 1/kg
+    double compliance;    ///< velocity at the point per unit impulse on it, 1/kg; of a mirrored one the largest
+    int mirrored = none;  ///< index of what takes the place of weight and mobility, or none
+    static constexpr int none = -1;
+  };
+  /// Within reach of a roller or fixed face a point has an image behind it, and both push: nodes beyond the face stand
+  /// for their images inside, and what a node has of a point differs by direction.
+  struct Mirrored {
+    std::array<Vec<Dim>, mpm::most_nodes<Dim>> weight, mobility;
+    Vec<Dim> compliance;  ///< by direction, 1/kg
   };
   /// Impulses of a contact so far, N s.
   struct Load {
@@ -139,10 +147,13 @@ private:
   /// Impulse of a load.
   static Vec<Dim> impulse_of(const Load& load, const Vec<Dim>& normal);
   template <class Reach>
-  static Handle make_handle(const Reach& reach, const mpm::Grid<Dim>& grid);
+  Handle make_handle(const Reach& reach, const Vec<Dim>& point, const mpm::Grid<Dim>& grid);
+  void mirror(const mpm::Grid<Dim>& grid, Handle& handle);
+  Vec<Dim> velocity_of(const Handle& handle, const mpm::Grid<Dim>& grid) const;
   void collect(std::uint32_t index, const BoundaryBody<Dim>& body, const ContactPoints<Dim>& points, double widest,
                std::size_t memory, double dt, const mpm::Grid<Dim>& grid);
   void remember_untouched(const mpm::Grid<Dim>& grid);
+  double compliance_along(const Contact& contact) const;
   double relax(Contact& contact, mpm::Grid<Dim>& grid) const;
   double relax(Hold& hold, mpm::Grid<Dim>& grid) const;
   void push(const Handle& handle, const Vec<Dim>& impulse, mpm::Grid<Dim>& grid) const;
@@ -151,6 +162,7 @@ private:
   mpm::Shape shape_;
   bool held_ = false;
   std::vector<Contact> contacts_;
+  std::vector<Mirrored> mirrored_;  ///< of handles near faces
   std::vector<Hold> holds_;
   std::vector<Load> memory_;                  ///< loads of the last step per body and point: a good first guess
   std::vector<std::size_t> remembered_;       ///< those that may differ from zero
