@@ -40,11 +40,9 @@ std::vector<double> parts_of(const SheetLayout& line)
   return part;
 }
 
-/// The middle of a closed end.
+/// The middle of a closed end: the centroid; of half a section that of the whole, on its plane of symmetry.
 Vec2 inner_point(const SheetLayout& line)
 {
-  if (!line.closed)
-    return 0.5 * (line.points.front() + line.points.back());
   double twice = 0.0;
   Vec2 moment = Vec2::Zero();
   const Vec2& origin = line.points.front();
@@ -53,7 +51,11 @@ Vec2 inner_point(const SheetLayout& line)
     twice += cross(a, b);
     moment += cross(a, b) * (a + b) / 3.0;
   }
-  return origin + moment / twice;
+  const Vec2 centroid = moment / twice;
+  if (line.closed)
+    return origin + centroid;
+  const Vec2 plane = (line.points.back() - origin).normalized();
+  return origin + centroid.dot(plane) * plane;
 }
 
 /// Twice the area inside, positive against the clock; of an open line together with its chord.
@@ -168,8 +170,10 @@ private:
   Ring add_ring(const SheetLayout& line, const Vec2& middle, double scale, double x)
   {
     const SheetLayout plain{ line.points, line.closed };
-    const double least = line.closed ? 3.0 : 2.0;
-    const auto sides = static_cast<std::size_t>(std::max(least, std::round(scale * static_cast<double>(line.sides()))));
+    // Where the outline can be halved rings can too, so that half a section has half of the whole one's rings.
+    const std::size_t unit = line.closed && line.sides() % 2 == 0 ? 2 : 1, least = line.closed ? 4 / unit : 2;
+    const double wanted = scale * static_cast<double>(line.sides()) / static_cast<double>(unit);
+    const std::size_t sides = unit * std::max(least, static_cast<std::size_t>(std::round(wanted)));
     Ring ring;
     ring.closed = line.closed;
     for (const Vec2& p : divided(plain, sides).points) {

@@ -179,23 +179,24 @@ double Sheet::tension_power() const
 
 void Sheet::gauge_tension(std::vector<double>& result) const
 {
-  // All rest lengths are equal, so the window is a number of segments: the odd number nearest to the gauge length.
-  const std::size_t n = segments();
-  const auto half =
-      static_cast<std::size_t>(std::max(0.0, std::round(0.5 * (parameters_.gauge_length / rest_length_[0] - 1.0))));
-  const std::size_t reach = std::min(half, (n - 1) / 2);
+  // All rest lengths are equal: the window is a whole number of segments on either side, and a part of one more.
+  const std::size_t n = segments(), most = (n - 1) / 2;
+  const double half = std::max(0.0, 0.5 * (parameters_.gauge_length / rest_length_[0] - 1.0));
+  const std::size_t whole = std::min(static_cast<std::size_t>(half), most);
+  const double part = whole < most ? half - static_cast<double>(whole) : 0.0;
+  const std::size_t reach = part > 0.0 ? whole + 1 : whole;
   result.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    double sum = 0.0;
-    std::size_t count = 0;
+    double sum = 0.0, length = 0.0;
     for (std::size_t k = 0; k <= 2 * reach; ++k) {
       const std::size_t j = i + n - reach + k;  // n too large
       if (!closed() && (j < n || j >= 2 * n))
         continue;
-      sum += tension_[j % n];
-      ++count;
+      const double share = part > 0.0 && (k == 0 || k == 2 * reach) ? part : 1.0;
+      sum += share * tension_[j % n];
+      length += share;
     }
-    result[i] = sum / static_cast<double>(count);
+    result[i] = sum / length;
   }
 }
 

@@ -112,13 +112,18 @@ template <>
 contact::BoundaryBody<3> rigid_surface(const std::string& name, contact::Surface section, double friction,
                                        double spacing, const SceneDescription& scene)
 {
-  const double from = scene.symmetry() == Symmetry::quarter ? 0.0 : scene.space->along_m[0];
-  return { name, std::move(section), Along{ from, scene.space->along_m[1] }, friction, spacing };
+  // A cell further than the space: what lies in its ends, to round-off, touches as well.
+  const double margin = scene.grid.cell_size_m,
+               from = scene.symmetry() == Symmetry::quarter ? 0.0 : scene.space->along_m[0];
+  return { name, std::move(section), Along{ from - margin, scene.space->along_m[1] + margin }, friction, spacing };
 }
 
 contact::BoundaryBody<3> bulkhead(const HullPart& part, double spacing, const HullDescription& hull)
 {
   std::vector<Vec2> half = half_of_hopper(hull);
+  // What is pressed a little into the wall must not lose sight of the bulkhead, nor what lies in the plane of symmetry.
+  for (Vec2& point : half)
+    point[0] += point[0] > 0.0 ? spacing : -1e-6 * spacing;
   if (part.half == barge::HullHalf::starboard)
     for (Vec2& point : half)
       point[0] = -point[0];

@@ -8,11 +8,13 @@
 namespace geocontainer_mpm::scene {
 namespace {
 
-/// A bag of sand falls flat on a bed and spreads until its sheet holds it. `space`: the section's lines of a scene.
+/// A bag of sand falls flat on a bed and spreads until its sheet holds it. Its steps are of one length, whatever the
+/// model: how much the transfers smooth depends on their number. `space`, `along`: lines that make it a scene in space.
 std::string falling_bag(double cell, const std::string& space, const std::string& along, double end_s)
 {
   return fmt::format(R"(
 name: bag
+numerics: {{ max_step_s: 0.0005 }}
 time: {{ end_s: {}, output_interval_s: 0.02 }}
 grid:
   cell_size_m: {}
@@ -25,7 +27,7 @@ materials:
           friction_angle_deg: 30, dilation_angle_deg: 0, cohesion_pa: 0, tension_cutoff_pa: 0 }}
 bodies:
   sand: {{ material: sand, {} initial_velocity_m_per_s: [0, -2],
-          shape: {{ box: {{ lower_m: [-0.6, 0], upper_m: [0.6, 0.8] }} }} }}
+          shape: {{ polygon: {{ vertices_m: [[0, 0], [0.6, 0], [0.6, 0.8], [-0.6, 0.8], [-0.6, 0]] }} }} }}
 geotextiles:
   bag: {{ encloses: sand, slack: 0.02, stiffness_n_per_m: 2.0e5, mass_kg_per_m2: 1, computational_mass_kg_per_m2: 20,
          strength_n_per_m: 1.0e5, segment_length_m: {}, gauge_length_m: 0.4 }}

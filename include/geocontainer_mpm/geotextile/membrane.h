@@ -77,8 +77,8 @@ public:
   const std::vector<double>& tension() const { return tension_; }
   const std::vector<double>& warp_tension() const { return family_[0].tension; }
   const std::vector<double>& weft_tension() const { return family_[1].tension; }
-  /// Per triangle, N/m: mean over the cloth of those of its panel whose middles, as laid, are within half the gauge
-  /// length of its own and that hang together with it there.
+  /// Per triangle, N/m: mean over a square of cloth around it, of its panel, its sides along the yarns and as long as
+  /// the gauge.
   void gauge_tension(std::vector<double>& warp, std::vector<double>& weft) const;
   double elastic_energy() const;   ///< J
   double largest_strain() const;   ///< of what has a tension, >= 0
@@ -130,6 +130,7 @@ private:
   Vec3 rupture_place_ = Vec3::Zero();
   std::array<mpm::Column, 3> external_;      ///< of all forces, what loads add, N
   std::vector<std::uint32_t> near_, begin_;  ///< gauge: triangles near triangle t are near_[begin_[t]] to begin_[t + 1]
+  std::vector<double> share_;                ///< of each of near_, the part in the gauge's window
 };
 
 }  // namespace geocontainer_mpm::geotextile

@@ -50,7 +50,7 @@ struct Fullness {
 /// inner point six triangles of the same areas.
 ///
 /// A closed end is flat and hangs on the wall's last points: rings, the outline scaled towards an inner point (the
-/// centroid; of half a section the middle of its plane of symmetry), with the fewer points the shorter they are. Its
+/// centroid; of half a section that of the whole), with the fewer points the shorter they are. Its
 /// warp is along y and its weft along z. The outline must be star-shaped about the inner point.
 TriangleMesh wrap(const SheetLayout& outline, const Along& along, const ClosedEnds& closed_ends, double segment_length,
                   const Fullness& fullness = {});
