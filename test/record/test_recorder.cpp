@@ -1,141 +1,18 @@
-#include <gtest/gtest.h>
-#include <hdf5.h>
 #include <sys/resource.h>
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "geocontainer_mpm/error.h"
 #include "geocontainer_mpm/record/recorder.h"
+#include "recorder_fixture.h"
 #include "synthetic_frame.h"
 
 namespace geocontainer_mpm::record {
 namespace {
-
-/// A folder of its own for each test.
-class RecorderTest : public testing::Test {
-protected:
-  void SetUp() override
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "recorder_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::filesystem::path folder_;
-};
-
-/// Reads with HDF5's own calls, so that reading shares nothing with the writer.
-class Reader {
-public:
-  explicit Reader(const std::string& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT))
-  {
-    if (file_ < 0)
-      throw std::runtime_error("cannot open " + path);
-  }
-  ~Reader() { H5Fclose(file_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-
-  bool has(const std::string& name) const
-  {
-    for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
-      if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0)
-        return false;
-    return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
-  }
-
-  std::vector<hsize_t> extent(const std::string& name) const
-  {
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    const hid_t space = H5Dget_space(set);
-    std::vector<hsize_t> result(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    H5Sget_simple_extent_dims(space, result.data(), nullptr);
-    H5Sclose(space);
-    H5Dclose(set);
-    return result;
-  }
-
-  std::vector<double> numbers(const std::string& name) const
-  {
-    const auto size = extent(name);
-    std::vector<double> result(std::accumulate(size.begin(), size.end(), std::size_t{ 1 }, std::multiplies<>()));
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()), 0) << name;
-    H5Dclose(set);
-    return result;
-  }
-
-  std::string text(const std::string& name) const
-  {
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    const hid_t type = H5Dget_type(set);
-    std::string result(H5Tget_size(type), '\0');
-    H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data());
-    H5Tclose(type);
-    H5Dclose(set);
-    return result;
-  }
-
-  std::vector<double> number_attribute(const std::string& object, const std::string& name) const
-  {
-    const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t space = H5Aget_space(attribute);
-    std::vector<double> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    EXPECT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, result.data()), 0) << object << " " << name;
-    H5Sclose(space);
-    H5Aclose(attribute);
-    return result;
-  }
-
-  /// Texts of an attribute, one after the other and padded with NUL.
-  std::string text_attribute(const std::string& object, const std::string& name) const
-  {
-    const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t type = H5Aget_type(attribute);
-    std::string result(H5Aget_storage_size(attribute), '\0');
-    EXPECT_GE(H5Aread(attribute, type, result.data()), 0) << object << " " << name;
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return result;
-  }
-
-private:
-  hid_t file_;
-};
-
-std::vector<double> rows(const std::vector<Vec3>& points)
-{
-  std::vector<double> result;
-  for (const Vec3& point : points)
-    result.insert(result.end(), point.begin(), point.end());
-  return result;
-}
-
-/// What the file keeps of these. One-way on purpose: GCC 12 at -O3 drops a rounding to float and back in a vector.
-std::vector<float> singles(const std::vector<double>& values)
-{
-  std::vector<float> result;
-  for (const double value : values)
-    result.push_back(static_cast<float>(value));
-  return result;
-}
-
-std::string file_text(const std::string& name)
-{
-  std::ifstream file(name);
-  return { std::istreambuf_iterator<char>(file), {} };
-}
-
-using Extent = std::vector<hsize_t>;
 
 TEST_F(RecorderTest, KeepsEveryFieldOfAFrame)
 {
@@ -215,98 +92,6 @@ TEST_F(RecorderTest, LaysSeveralBodiesAndSheetsEndToEnd)
   for (std::size_t i = 0; i < pairs.size(); i += 2)
     EXPECT_EQ(pairs[i] < nodes, pairs[i + 1] < nodes) << i;
   EXPECT_EQ(pairs[pairs.size() - 1], nodes);
-}
-
-/// Corners of triangles, as rows of the shared arrays of a group in which they start at `first`.
-std::vector<double> corners(const std::vector<scene::Triangle>& triangles, std::uint32_t first = 0)
-{
-  std::vector<double> result;
-  for (const scene::Triangle& triangle : triangles)
-    for (const std::uint32_t corner : triangle)
-      result.push_back(first + corner);
-  return result;
-}
-
-TEST_F(RecorderTest, KeepsThreeDimensionalFrames)
-{
-  const scene::Frame frame = synthetic_solid_frame(28.5, 2);
-  {
-    Recorder recorder(path("solid.h5"), "solid", "");
-    ASSERT_EQ(recorder.write(frame), "");
-  }
-  const Reader reader(path("solid.h5"));
-  const std::string at = "/frames/000000";
-  EXPECT_EQ(reader.number_attribute(at, "dimensions"), std::vector<double>{ 3.0 });
-
-  const scene::SoilFrame& soil = frame.soil.front();
-  EXPECT_EQ(reader.numbers(at + "/soil/position"), rows(soil.position));
-  EXPECT_NE(reader.numbers(at + "/soil/position")[0], 0.0);
-  const std::vector<double> stress = reader.numbers(at + "/soil/stress");
-  const auto& [xx, yy, zz, xy, xz, yz] = soil.stress.back();
-  EXPECT_NE(xy, 0.0);
-  EXPECT_NE(xy, xz);
-  EXPECT_EQ(singles({ stress.end() - 6, stress.end() }), singles({ xx, xy, xz, yy, yz, zz }));
-  EXPECT_EQ(reader.text_attribute(at + "/soil/volume", "units"), "m^3");
-
-  const scene::GeotextileFrame& sheet = frame.geotextile.front();
-  EXPECT_EQ(reader.numbers(at + "/geotextile/node"), rows(sheet.node));
-  ASSERT_EQ(reader.extent(at + "/geotextile/connectivity"), (Extent{ sheet.triangles.size(), 3 }));
-  EXPECT_EQ(reader.numbers(at + "/geotextile/connectivity"), corners(sheet.triangles));
-  EXPECT_EQ(reader.number_attribute(at + "/geotextile", "segment_count"),
-            std::vector<double>{ static_cast<double>(sheet.triangles.size()) });
-  EXPECT_EQ(singles(reader.numbers(at + "/geotextile/gauge_tension")), singles(sheet.gauge_tension));
-  EXPECT_EQ(singles(reader.numbers(at + "/geotextile/warp_tension")), singles(sheet.warp_tension));
-  EXPECT_EQ(singles(reader.numbers(at + "/geotextile/weft_tension")), singles(sheet.weft_tension));
-  EXPECT_EQ(reader.text_attribute(at + "/geotextile/weft_tension", "units"), "N/m");
-
-  // The starboard half's triangles lead to its own rows.
-  std::vector<double> hull = corners(frame.boundary[0].triangles);
-  const auto rows_of_port = static_cast<std::uint32_t>(frame.boundary[0].position.size());
-  const std::vector<double> starboard = corners(frame.boundary[1].triangles, rows_of_port);
-  hull.insert(hull.end(), starboard.begin(), starboard.end());
-  EXPECT_EQ(reader.numbers(at + "/hull/connectivity"), hull);
-  EXPECT_EQ(reader.numbers(at + "/hull/force"), rows({ frame.boundary[0].force, frame.boundary[1].force }));
-  EXPECT_EQ(reader.text_attribute(at + "/hull/force", "units"), "N");
-
-  EXPECT_EQ(reader.number_attribute(at + "/energy", "kinetic_j"), std::vector<double>{ frame.energy.kinetic });
-  EXPECT_EQ(reader.number_attribute(at + "/status", "length_m"), std::vector<double>{ 8.0 });
-  EXPECT_EQ(reader.number_attribute(at + "/status", "soil_volume_m3"), std::vector<double>{ frame.status.soil_volume });
-  EXPECT_EQ(reader.number_attribute(at + "/status", "peak_tension_position_m"),
-            rows({ frame.status.peak_tension_position_m }));
-
-  const std::string xml = file_text(path("solid.xdmf"));
-  for (const std::size_t count : { sheet.triangles.size(), hull.size() / 3, frame.boundary[2].triangles.size() })
-    EXPECT_NE(xml.find("TopologyType=\"Triangle\" NumberOfElements=\"" + std::to_string(count) + "\""),
-              std::string::npos);
-  EXPECT_NE(xml.find("Dimensions=\"" + std::to_string(sheet.triangles.size()) + " 3\">solid.h5:" + at +
-                     "/geotextile/connectivity"),
-            std::string::npos);
-  EXPECT_EQ(xml.find("Polyline"), std::string::npos);
-  EXPECT_NE(xml.find("warp_tension"), std::string::npos);
-}
-
-TEST_F(RecorderTest, ALineAmongTrianglesIsOfTrianglesWithTwoCornersInOnePlace)
-{
-  scene::Frame frame = synthetic_solid_frame(1.0, 1);
-  const scene::GeotextileFrame line = synthetic_frame(1.0, 1).geotextile.front();
-  frame.geotextile.push_back(line);
-  {
-    Recorder recorder(path("mixed.h5"), "mixed", "");
-    ASSERT_EQ(recorder.write(frame), "");
-  }
-  const Reader reader(path("mixed.h5"));
-  const std::string sheets = "/frames/000000/geotextile";
-  const std::size_t triangles = frame.geotextile[0].triangles.size(), segments = line.tension.size();
-  ASSERT_EQ(reader.extent(sheets + "/connectivity"), (Extent{ triangles + segments, 3 }));
-  ASSERT_EQ(reader.extent(sheets + "/tension"), (Extent{ triangles + segments }));
-  EXPECT_FALSE(reader.has(sheets + "/warp_tension"));  // the line has none
-  const std::vector<double> pieces = reader.numbers(sheets + "/connectivity");
-  const auto first = static_cast<double>(frame.geotextile[0].node.size());
-  for (std::size_t i = 0; i < segments; ++i) {
-    EXPECT_EQ(pieces[3 * (triangles + i)], first + static_cast<double>(i));
-    EXPECT_EQ(pieces[3 * (triangles + i) + 1], pieces[3 * (triangles + i) + 2]);
-  }
-  EXPECT_EQ(pieces.back(), first);
 }
 
 TEST_F(RecorderTest, AnOpenSheetHasOneSegmentLessThanNodes)
