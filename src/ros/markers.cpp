@@ -13,8 +13,8 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double outline_width_m = 0.04;
-constexpr float boundary_alpha = 0.3f;
-const Eigen::Vector3f boundary_colour(0.35f, 0.38f, 0.45f);
+constexpr float face_alpha = 0.3f;
+const Eigen::Vector3f face_colour(0.7f, 0.75f, 0.82f), outline_colour(0.35f, 0.38f, 0.45f);
 constexpr double legend_height_m = 0.32;
 constexpr double legend_above_hinge_m = 2.4;
 
@@ -80,19 +80,28 @@ std_msgs::ColorRGBA colour_of_piece(const scene::GeotextileFrame& sheet, std::si
   return to_colour(utilisation_colour(sheet.gauge_tension[piece] / sheet.seam_strength_n_per_m) * shading);
 }
 
-Marker geotextile_surface(const scene::GeotextileFrame& sheet, int id, const View& view)
+/// Triangles, each of the colour that `colour(index, shade)` gives.
+template <typename Colour>
+void add_faces(Marker& marker, const std::vector<Vec3>& position, const std::vector<scene::Triangle>& triangles,
+               Colour colour)
 {
   const Vec3 to_lamp(0.3, 0.4, 1.0);  // above, to port, a little ahead: ends and sides differ
-  Marker marker = make_marker("geotextile", id, Marker::TRIANGLE_LIST, view);
-  marker.points.reserve(3 * sheet.triangles.size());
-  marker.colors.reserve(3 * sheet.triangles.size());
-  for (std::size_t i = 0; i < sheet.triangles.size(); ++i) {
-    const auto corner = [&](std::size_t k) -> const Vec3& { return sheet.node[sheet.triangles[i][k]]; };
+  marker.points.reserve(3 * triangles.size());
+  marker.colors.reserve(3 * triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto corner = [&](std::size_t k) -> const Vec3& { return position[triangles[i][k]]; };
     const float shading = shade(corner(1) - corner(0), corner(2) - corner(0), to_lamp);
     for (std::size_t k = 0; k < 3; ++k)
       marker.points.push_back(to_point(corner(k)));
-    marker.colors.insert(marker.colors.end(), 3, colour_of_piece(sheet, i, shading));
+    marker.colors.insert(marker.colors.end(), 3, colour(i, shading));
   }
+}
+
+Marker geotextile_surface(const scene::GeotextileFrame& sheet, int id, const View& view)
+{
+  Marker marker = make_marker("geotextile", id, Marker::TRIANGLE_LIST, view);
+  add_faces(marker, sheet.node, sheet.triangles,
+            [&](std::size_t i, float shading) { return colour_of_piece(sheet, i, shading); });
   return marker;
 }
 
@@ -122,19 +131,16 @@ Marker outline_marker(int id, const View& view)
 {
   Marker marker = make_marker("boundary", id, Marker::LINE_LIST, view);
   marker.scale.x = outline_width_m;
-  marker.color = to_colour(boundary_colour);
+  marker.color = to_colour(outline_colour);
   return marker;
 }
 
-/// See-through, as the hull is around the container, and of one colour, so that rviz lights it.
+/// See-through, as the hull is around the container. Shaded here: rviz leaves dark what is seen from behind.
 Marker boundary_surface(const scene::BoundaryFrame& boundary, int id, const View& view)
 {
   Marker marker = make_marker("boundary_surface", id, Marker::TRIANGLE_LIST, view);
-  marker.color = to_colour(boundary_colour, boundary_alpha);
-  marker.points.reserve(3 * boundary.triangles.size());
-  for (const scene::Triangle& triangle : boundary.triangles)
-    for (const std::uint32_t corner : triangle)
-      marker.points.push_back(to_point(boundary.position[corner]));
+  add_faces(marker, boundary.position, boundary.triangles,
+            [](std::size_t, float shading) { return to_colour(face_colour * shading, face_alpha); });
   return marker;
 }
 

@@ -116,18 +116,23 @@ std::vector<Vec3> container_outline(const scene::GeotextileFrame& sheet)
 std::vector<std::array<std::uint32_t, 2>> sharp_edges(const scene::BoundaryFrame& boundary)
 {
   constexpr double cosine_of_flat = 0.9;
-  std::map<Edge, std::vector<Vec3>> normals;
+  std::vector<Vec3> normal;
+  std::vector<std::pair<Edge, std::size_t>> sides;  // each edge of each triangle
   for (const scene::Triangle& triangle : boundary.triangles) {
     const Vec3 &a = boundary.position[triangle[0]], &b = boundary.position[triangle[1]],
                &c = boundary.position[triangle[2]];
-    const Vec3 normal = (b - a).cross(c - a).normalized();
     for (std::size_t k = 0; k < 3; ++k)
-      normals[edge_of(triangle[k], triangle[(k + 1) % 3])].push_back(normal);
+      sides.emplace_back(edge_of(triangle[k], triangle[(k + 1) % 3]), normal.size());
+    normal.push_back((b - a).cross(c - a).normalized());
   }
+  std::sort(sides.begin(), sides.end());
   std::vector<Edge> sharp;
-  for (const auto& [edge, beside] : normals)
-    if (beside.size() != 2 || beside[0].dot(beside[1]) < cosine_of_flat)
-      sharp.push_back(edge);
+  for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
+    while (next < sides.size() && sides[next].first == sides[i].first)
+      ++next;
+    if (next - i != 2 || normal[sides[i].second].dot(normal[sides[i + 1].second]) < cosine_of_flat)
+      sharp.push_back(sides[i].first);
+  }
   return sharp;
 }
 

@@ -9,4 +9,7 @@ namespace geocontainer_mpm::record {
 /// `rings` sets the number of particles (3 rings (rings + 1) + 1); the run spans 0 to 40 s.
 scene::Frame synthetic_frame(double time_s, int rings);
 
+/// The same, lengthened to three dimensions: a container 8 m long with closed ends in a hull of 10 m.
+scene::Frame synthetic_solid_frame(double time_s, int rings);
+
 }  // namespace geocontainer_mpm::record

@@ -13,12 +13,18 @@ import h5py
 import matplotlib.image
 import numpy
 
+from record_reader import read_everything, read_sidecar
+
 WRITER, PLOT = sys.argv.pop(1), sys.argv.pop(1)
+sys.path.append(os.path.dirname(PLOT))
+sys.dont_write_bytecode = True
+import record_file  # noqa: E402  (it is beside the program)
+
+SOLID = ["history.png", "section.png", "side.png", "solid.png"]
 
 
 def load_program():
     loader = importlib.machinery.SourceFileLoader("plot_record", PLOT)
-    sys.dont_write_bytecode = True
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot_record", loader))
     loader.exec_module(module)
     return module
@@ -34,9 +40,9 @@ class PlotRecord(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def record(self, name, frames, change=None):
+    def record(self, name, frames, change=None, kind=()):
         path = self.path(name)
-        subprocess.run([WRITER, path, str(frames), "6"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([WRITER, path, str(frames), "6", *kind], check=True, stdout=subprocess.DEVNULL)
         if change is not None:
             with h5py.File(path, "r+") as file:
                 for frame in file["frames"].values():
@@ -46,11 +52,12 @@ class PlotRecord(unittest.TestCase):
     def plot(self, *arguments):
         return subprocess.run([sys.executable, PLOT, *arguments], stderr=subprocess.PIPE, text=True, timeout=120)
 
-    def expect_pictures(self, record, *arguments):
+    def expect_pictures(self, record, *arguments, names=("history.png", "section.png")):
         out = self.path(os.path.basename(record) + ".pictures")
         run = self.plot(record, "--out", out, *arguments)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
-        for name in ("section.png", "history.png"):
+        self.assertEqual(sorted(os.listdir(out)), list(names))
+        for name in names:
             picture = matplotlib.image.imread(os.path.join(out, name))
             self.assertGreater(min(picture.shape[:2]), 300)
             drawn = (picture[..., :3].min(axis=2) < 0.9).mean()
@@ -146,6 +153,49 @@ class PlotRecord(unittest.TestCase):
     def test_short_run_and_chosen_times(self):
         self.expect_pictures(self.record("one.h5", 1))
         self.expect_pictures(self.record("some.h5", 41), "--times", "0,12.5,40")
+
+    def solid(self, name, change=None):
+        return self.record(name, 3, change, ["solid"])
+
+    def test_three_dimensional_run(self):
+        path = self.solid("solid.h5")
+        self.assertEqual(len(read_everything(path)), 3)
+        self.assertEqual(read_sidecar(self.path("solid.xdmf")), [0.0, 20.0, 40.0])
+        record = self.program.Record(path)
+        self.assertEqual((record.dimensions, record.tension.shape), (3, (3, 1)))
+        self.assertGreater(record.energy("potential")[0], record.energy("potential")[-1])
+        self.expect_pictures(path, names=SOLID)
+
+    def test_three_dimensional_run_without_sheet_and_hull(self):
+        def strip(frame):
+            for name in ("hull", "geotextile"):
+                del frame[name]
+
+        self.expect_pictures(self.solid("heap.h5", strip), "--soil", "stress", names=SOLID)
+
+    def test_section_of_triangles(self):
+        """A tetrahedron cut where one corner, or two, are ahead: each cut triangle gives one line, together a ring."""
+        points = numpy.array([[0.0, 0, 0], [0, 2, 0], [0, 0, 2], [4, 0, 0]])
+        faces = numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+        lines, owner = record_file.section_lines(points, faces, 2.0)
+        self.assertEqual(owner.tolist(), [1, 2, 3])
+        expected = {((0, 0), (1, 0)), ((0, 1), (1, 0)), ((0, 0), (0, 1))}
+        self.assertEqual({tuple(sorted(map(tuple, line))) for line in lines.tolist()}, expected)
+        turned = points[:, [1, 0, 2]]  # corners 1 is ahead of y = 1 alone; from behind, 0, 2 and 3
+        lines, owner = record_file.section_lines(turned, faces, 1.0)
+        self.assertEqual(owner.tolist(), [0, 1, 2])
+        self.assertEqual({tuple(sorted(map(tuple, line))) for line in lines.tolist()},
+                         {((0, 0), (0, 1)), ((0, 0), (2, 0)), ((0, 1), (2, 0))})
+
+    def test_edges_of_a_cube(self):
+        """Twelve edges, none of the six diagonals of its faces; of an open box as many."""
+        corners = numpy.array([[x, y, z] for x in (0.0, 1) for y in (0, 1) for z in (0, 1)])
+        faces = numpy.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],
+                             [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+        for kept in (faces, faces[:10]):
+            edges = record_file.sharp_edges(corners, kept)
+            self.assertEqual(edges.shape, (12, 2, 3))
+            self.assertTrue(numpy.allclose(numpy.linalg.norm(edges[:, 1] - edges[:, 0], axis=1), 1.0))
 
     def test_bad_input(self):
         record, out = self.record("good.h5", 3), self.path("out")

@@ -1,141 +1,18 @@
-#include <gtest/gtest.h>
-#include <hdf5.h>
 #include <sys/resource.h>
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "geocontainer_mpm/error.h"
 #include "geocontainer_mpm/record/recorder.h"
+#include "recorder_fixture.h"
 #include "synthetic_frame.h"
 
 namespace geocontainer_mpm::record {
 namespace {
-
-/// A folder of its own for each test.
-class RecorderTest : public testing::Test {
-protected:
-  void SetUp() override
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "recorder_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::filesystem::path folder_;
-};
-
-/// Reads with HDF5's own calls, so that reading shares nothing with the writer.
-class Reader {
-public:
-  explicit Reader(const std::string& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT))
-  {
-    if (file_ < 0)
-      throw std::runtime_error("cannot open " + path);
-  }
-  ~Reader() { H5Fclose(file_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-
-  bool has(const std::string& name) const
-  {
-    for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
-      if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0)
-        return false;
-    return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
-  }
-
-  std::vector<hsize_t> extent(const std::string& name) const
-  {
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    const hid_t space = H5Dget_space(set);
-    std::vector<hsize_t> result(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    H5Sget_simple_extent_dims(space, result.data(), nullptr);
-    H5Sclose(space);
-    H5Dclose(set);
-    return result;
-  }
-
-  std::vector<double> numbers(const std::string& name) const
-  {
-    const auto size = extent(name);
-    std::vector<double> result(std::accumulate(size.begin(), size.end(), std::size_t{ 1 }, std::multiplies<>()));
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()), 0) << name;
-    H5Dclose(set);
-    return result;
-  }
-
-  std::string text(const std::string& name) const
-  {
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    const hid_t type = H5Dget_type(set);
-    std::string result(H5Tget_size(type), '\0');
-    H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data());
-    H5Tclose(type);
-    H5Dclose(set);
-    return result;
-  }
-
-  std::vector<double> number_attribute(const std::string& object, const std::string& name) const
-  {
-    const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t space = H5Aget_space(attribute);
-    std::vector<double> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    EXPECT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, result.data()), 0) << object << " " << name;
-    H5Sclose(space);
-    H5Aclose(attribute);
-    return result;
-  }
-
-  /// Texts of an attribute, one after the other and padded with NUL.
-  std::string text_attribute(const std::string& object, const std::string& name) const
-  {
-    const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t type = H5Aget_type(attribute);
-    std::string result(H5Aget_storage_size(attribute), '\0');
-    EXPECT_GE(H5Aread(attribute, type, result.data()), 0) << object << " " << name;
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return result;
-  }
-
-private:
-  hid_t file_;
-};
-
-std::vector<double> rows(const std::vector<Vec3>& points)
-{
-  std::vector<double> result;
-  for (const Vec3& point : points)
-    result.insert(result.end(), point.begin(), point.end());
-  return result;
-}
-
-/// What the file keeps of these. One-way on purpose: GCC 12 at -O3 drops a rounding to float and back in a vector.
-std::vector<float> singles(const std::vector<double>& values)
-{
-  std::vector<float> result;
-  for (const double value : values)
-    result.push_back(static_cast<float>(value));
-  return result;
-}
-
-std::string file_text(const std::string& name)
-{
-  std::ifstream file(name);
-  return { std::istreambuf_iterator<char>(file), {} };
-}
-
-using Extent = std::vector<hsize_t>;
 
 TEST_F(RecorderTest, KeepsEveryFieldOfAFrame)
 {
@@ -180,8 +57,7 @@ TEST_F(RecorderTest, KeepsEveryFieldOfAFrame)
   EXPECT_EQ(reader.numbers(at + "/hull/force"), force);
   EXPECT_EQ(reader.numbers(at + "/surface/position"), rows(frame.boundary[2].position));
   EXPECT_EQ(reader.text_attribute(at + "/status", "outcome"), "releasing");
-  EXPECT_EQ(reader.number_attribute(at + "/status", "centroid_m"),
-            rows({ frame.status.centroid_m }));
+  EXPECT_EQ(reader.number_attribute(at + "/status", "centroid_m"), rows({ frame.status.centroid_m }));
   EXPECT_EQ(reader.number_attribute(at + "/energy", "kinetic_j_per_m"), std::vector<double>{ frame.energy.kinetic });
 }
 
@@ -294,6 +170,26 @@ TEST_F(RecorderTest, KeepsTheSamplesOfProbes)
   EXPECT_FALSE(reader.has("/frames/000002/probes"));
 }
 
+/// Compares what is reserved for a frame with what it takes.
+void expect_room(const scene::Frame& frame, const std::string& path)
+{
+  const auto size = [&] { return std::filesystem::file_size(path); };
+  std::uintmax_t reserved_end = 0;
+  {
+    Recorder recorder(path, "room", "");
+    ASSERT_EQ(recorder.write(frame), "");
+    reserved_end = size();
+  }
+  const std::uintmax_t one_frame = size();
+  {
+    Recorder recorder(path, "room", "");
+    ASSERT_EQ(recorder.write(frame), "");
+    ASSERT_EQ(recorder.write(frame), "");
+  }
+  const std::uintmax_t frame_bytes = size() - one_frame;
+  EXPECT_GT(reserved_end - (one_frame - frame_bytes), frame_bytes);
+}
+
 TEST_F(RecorderTest, ReservesRoomForManyProbes)
 {
   // HDF5 does not survive a full disk, so what is reserved for a frame must hold it.
@@ -305,21 +201,21 @@ TEST_F(RecorderTest, ReservesRoomForManyProbes)
       probe.columns.push_back({ "column_" + std::to_string(k), "m", { 1.0, 2.0 } });
     frame.probes.push_back(probe);
   }
-  const auto size = [&] { return std::filesystem::file_size(path("wide.h5")); };
-  std::uintmax_t reserved_end = 0;
-  {
-    Recorder recorder(path("wide.h5"), "wide", "");
-    ASSERT_EQ(recorder.write(frame), "");
-    reserved_end = size();
+  expect_room(frame, path("wide.h5"));
+}
+
+TEST_F(RecorderTest, ReservesRoomForTriangles)
+{
+  // Nothing but triangles with every tension: six to a node.
+  scene::Frame frame = synthetic_solid_frame(1.0, 1);
+  scene::GeotextileFrame& sheet = frame.geotextile[0];
+  for (int i = 0; i < 3; ++i) {
+    sheet.triangles.insert(sheet.triangles.end(), sheet.triangles.begin(), sheet.triangles.end());
+    for (std::vector<double>* tension :
+         { &sheet.tension, &sheet.gauge_tension, &sheet.warp_tension, &sheet.weft_tension })
+      tension->insert(tension->end(), tension->begin(), tension->end());
   }
-  const std::uintmax_t one_frame = size();
-  {
-    Recorder recorder(path("wide.h5"), "wide", "");
-    ASSERT_EQ(recorder.write(frame), "");
-    ASSERT_EQ(recorder.write(frame), "");
-  }
-  const std::uintmax_t frame_bytes = size() - one_frame;
-  EXPECT_GT(reserved_end - (one_frame - frame_bytes), frame_bytes);
+  expect_room(frame, path("triangles.h5"));
 }
 
 TEST_F(RecorderTest, LeavesOutWhatASceneDoesNotHave)

@@ -1,5 +1,6 @@
 /// Writes a synthetic record and says on stdout when each frame stands: the child of the kill tests and the source of
-/// the pictures' test. With a fourth and fifth argument it kills itself at a chosen write to disk.
+/// the pictures' test. With a fourth and fifth argument it kills itself at a chosen write to disk, or with `solid`
+/// writes frames of three dimensions.
 
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -81,18 +82,21 @@ int main(int argc, char** argv)
 {
   using namespace geocontainer_mpm;
   if (argc < 4) {
-    std::fprintf(stderr, "usage: write_record RECORD.h5 FRAMES RINGS [KILL_AT_CHANGE [torn]]\n");
+    std::fprintf(stderr, "usage: write_record RECORD.h5 FRAMES RINGS [KILL_AT_CHANGE [torn] | solid]\n");
     return 2;
   }
   const int frames = std::atoi(argv[2]);
   const int rings = std::atoi(argv[3]);
-  kill_at = argc > 4 ? std::atol(argv[4]) : -1;
+  const bool solid = argc > 4 && std::string(argv[4]) == "solid";
+  kill_at = argc > 4 && !solid ? std::atol(argv[4]) : -1;
   torn = argc > 5 && std::string(argv[5]) == "torn";
   record::Recorder recorder(argv[1], "synthetic", "name: synthetic\n");
   std::puts("created");
   std::fflush(stdout);
   for (int i = 0; i < frames; ++i) {
-    const std::string failure = recorder.write(record::synthetic_frame(40.0 * i / std::max(1, frames - 1), rings));
+    const double time_s = 40.0 * i / std::max(1, frames - 1);
+    const std::string failure =
+        recorder.write(solid ? record::synthetic_solid_frame(time_s, rings) : record::synthetic_frame(time_s, rings));
     if (!failure.empty()) {
       std::fprintf(stderr, "%s\n", failure.c_str());
       return 1;

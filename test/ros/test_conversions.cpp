@@ -305,8 +305,8 @@ TEST(Conversions, AThreeDimensionalSheetAndHullAreTriangles)
   EXPECT_EQ(warmth(9), warmth(11));
   EXPECT_EQ(faces.type, visualization_msgs::Marker::TRIANGLE_LIST);
   EXPECT_EQ(faces.points.size(), 9u);
-  EXPECT_TRUE(faces.colors.empty());
-  EXPECT_LT(faces.color.a, 0.5f);
+  ASSERT_EQ(faces.colors.size(), 9u);
+  EXPECT_LT(faces.colors[0].a, 0.5f);  // the container is seen through it
   EXPECT_EQ(edges.type, visualization_msgs::Marker::LINE_LIST);
   EXPECT_EQ(edges.points.size(), 2 * 6u);  // five of the rim and the bend; not the diagonal of the flat face
   EXPECT_NE(faces.ns + std::to_string(faces.id), edges.ns + std::to_string(edges.id));
