@@ -151,8 +151,10 @@ typename ContactSolver<Dim>::Handle ContactSolver<Dim>::make_handle(const Reach&
     if (mass > 0.0)
       handle.compliance += handle.weight[k] * handle.weight[k] / mass;
   }
-  if (is_near_mirror(point, grid))
+  if (is_near_mirror(point, grid)) {
+    std::copy(reach.weight.begin(), reach.weight.end(), handle.weight.begin());  // beyond a face there is no mass
     mirror(grid, handle);
+  }
   return handle;
 }
 
@@ -177,7 +179,9 @@ void ContactSolver<Dim>::mirror(const mpm::Grid<Dim>& grid, Handle& handle)
   shares.compliance = Vec<Dim>::Zero();
   for (std::size_t k = 0; k < count; ++k) {
     const double mass = grid.nodes()[handle.node[k]][mass_slot];
-    shares.mobility[k] = mass > 0.0 ? Vec<Dim>(shares.weight[k] / mass) : Vec<Dim>(Vec<Dim>::Zero());
+    if (!(mass > 0.0))
+      shares.weight[k].setZero();
+    shares.mobility[k] = mass > 0.0 ? Vec<Dim>(shares.weight[k] / mass) : shares.weight[k];
     shares.compliance += shares.weight[k].cwiseProduct(shares.mobility[k]);
   }
   handle.compliance = shares.compliance.maxCoeff();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -10,29 +11,47 @@
 namespace geocontainer_mpm::geotextile {
 namespace {
 
-/// Triangles of the same panel that share a side, for each triangle.
-std::vector<std::vector<std::uint32_t>> side_neighbours(const TriangleMesh& mesh)
+/// What is beside a triangle across its side k, from corner k to the next.
+struct Beside {
+  std::vector<std::uint32_t> others;  ///< of the same panel
+  bool open = false;                  ///< nothing at all: the edge of the cloth, or a plane of symmetry
+};
+
+std::vector<std::array<Beside, 3>> find_sides(const TriangleMesh& mesh)
 {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> at_side;
+  const auto side = [&](std::size_t t, std::size_t k) {
+    return std::minmax({ mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3] });
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      at_side[side(t, k)].push_back(static_cast<std::uint32_t>(t));
+  std::vector<std::array<Beside, 3>> beside(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      at_side[{ low, high }].push_back(static_cast<std::uint32_t>(t));
-    }
-  std::vector<std::vector<std::uint32_t>> beside(mesh.triangles.size());
-  for (const auto& [side, triangles] : at_side)
-    for (const std::uint32_t t : triangles)
-      for (const std::uint32_t other : triangles)
+      const std::vector<std::uint32_t>& there = at_side[side(t, k)];
+      beside[t][k].open = there.size() == 1;
+      for (const std::uint32_t other : there)
         if (other != t && (mesh.panel.empty() || mesh.panel[other] == mesh.panel[t]))
-          beside[t].push_back(other);
+          beside[t][k].others.push_back(other);
+    }
   return beside;
 }
 
 /// Corners of a triangle in the plane of the cloth: lengths of cloth along warp and weft, m.
 using CornersInCloth = std::array<Vec2, 3>;
 
+/// A triangle, or its image, in the plane of the cloth.
+struct Placed {
+  std::uint32_t triangle;
+  Vec2 sense;  ///< -1 along a direction in which it is an image, else 1
+  CornersInCloth corners;
+  std::size_t image() const { return (sense[0] < 0.0 ? 1U : 0U) + (sense[1] < 0.0 ? 2U : 0U); }
+};
+
 /// A triangle laid out in the cloth with one of its corners at a place.
-CornersInCloth lay_out(const TriangleMesh& mesh, std::size_t triangle, std::size_t corner, const Vec2& place)
+Placed lay_out(const TriangleMesh& mesh, std::uint32_t triangle, const Vec2& sense, std::size_t corner,
+               const Vec2& place)
 {
   const Triangle& t = mesh.triangles[triangle];
   const std::array<double, 2> full =
@@ -40,9 +59,19 @@ CornersInCloth lay_out(const TriangleMesh& mesh, std::size_t triangle, std::size
   CornersInCloth corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 apart = mesh.points[t[k]] - mesh.points[t[corner]];
-    corners[k] = place + Vec2(full[0] * apart.dot(mesh.warp[triangle]), full[1] * apart.dot(mesh.weft[triangle]));
+    corners[k] = place + sense.cwiseProduct(
+                             Vec2(full[0] * apart.dot(mesh.warp[triangle]), full[1] * apart.dot(mesh.weft[triangle])));
   }
-  return corners;
+  return { triangle, sense, corners };
+}
+
+/// The image behind side k, which is a plane of symmetry and so crosses one family of yarns at right angles.
+Placed image_behind(const TriangleMesh& mesh, const Placed& known, std::size_t k)
+{
+  const Vec2 side = known.corners[(k + 1) % 3] - known.corners[k];
+  Vec2 sense = known.sense;
+  sense[std::abs(side[0]) < std::abs(side[1]) ? 0 : 1] *= -1.0;
+  return lay_out(mesh, known.triangle, sense, k, known.corners[k]);
 }
 
 /// Where two triangles that share a side have a corner in common: which it is of each.
@@ -82,34 +111,42 @@ double part_within(const Window& box, const Window& window)
 }  // namespace
 
 /// From each triangle on over common sides, in the plane of the cloth, as far as the gauge reaches: layers that lie on
-/// each other are not near. A triangle counts by the part of its box along the yarns that is in the window.
+/// each other are not near. What is behind a plane of symmetry is the image of what is before it. A triangle counts by
+/// the part of its box along the yarns that is in the window.
 void Membrane::find_neighbours(const TriangleMesh& mesh)
 {
-  const std::vector<std::vector<std::uint32_t>> beside = side_neighbours(mesh);
-  std::vector<std::size_t> seen(triangles_.size(), triangles_.size());  // by which triangle last
-  std::vector<CornersInCloth> corners;                                  // of near_ from begin_.back() on
+  const std::vector<std::array<Beside, 3>> sides = find_sides(mesh);
+  std::vector<std::size_t> seen(4 * triangles_.size(), triangles_.size());  // by which triangle last, per image
+  std::vector<Placed> placed;
   begin_.assign(1, 0);
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    corners.assign(1, lay_out(mesh, t, 0, Vec2::Zero()));
-    const Window window = window_around(box_of(corners[0]), parameters_.gauge_length);
-    near_.push_back(static_cast<std::uint32_t>(t));
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    placed.assign(1, lay_out(mesh, t, Vec2::Ones(), 0, Vec2::Zero()));
+    const Window window = window_around(box_of(placed[0].corners), parameters_.gauge_length);
+    seen[4 * t] = t;
+    near_.push_back(t);
     share_.push_back(1.0);
-    seen[t] = t;
-    for (std::size_t at = begin_.back(); at < near_.size(); ++at) {
-      const std::uint32_t from = near_[at];
-      const CornersInCloth known = corners[at - begin_.back()];
-      for (const std::uint32_t other : beside[from]) {
-        if (seen[other] == t)
-          continue;
-        seen[other] = t;
-        const auto [mine, its] = common_corner(mesh.triangles[from], mesh.triangles[other]);
-        const CornersInCloth placed = lay_out(mesh, other, its, known[mine]);
-        const double share = part_within(box_of(placed), window);
-        if (!(share > 0.0))
-          continue;
-        near_.push_back(other);
-        share_.push_back(share);
-        corners.push_back(placed);
+    const auto look_at = [&](const Placed& next) {
+      const std::size_t image = 4 * next.triangle + next.image();
+      if (seen[image] == t)
+        return;
+      seen[image] = t;
+      const double share = part_within(box_of(next.corners), window);
+      if (!(share > 0.0))
+        return;
+      placed.push_back(next);
+      near_.push_back(next.triangle);
+      share_.push_back(share);
+    };
+    for (std::size_t at = 0; at < placed.size(); ++at) {
+      const Placed known = placed[at];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Beside& beside = sides[known.triangle][k];
+        if (beside.open && mesh.closed)
+          look_at(image_behind(mesh, known, k));
+        for (const std::uint32_t other : beside.others) {
+          const auto [mine, its] = common_corner(mesh.triangles[known.triangle], mesh.triangles[other]);
+          look_at(lay_out(mesh, other, known.sense, its, known.corners[mine]));
+        }
       }
     }
     begin_.push_back(static_cast<std::uint32_t>(near_.size()));

@@ -108,6 +108,10 @@ void describe(V& v, GeotextileDescription& g)
           g.force_strain_weft_table, rows("strain, force"));
   v.value({ "strength_weft_n_per_m", optional, "N/m", "tensile strength along the barge; absent: as across it" },
           g.strength_weft_n_per_m, positive());
+  v.value({ "end_slack", optional, "",
+            "in a scene with `space`, length of cloth in a closed end over that of the flat end, both ways, less 1; "
+            "absent: as around the section" },
+          g.end_slack, non_negative());
   v.value({ "mass_kg_per_m2", required, "kg/m2", "true mass: what gravity pulls" }, g.mass_kg_per_m2, positive());
   v.value(
       { "computational_mass_kg_per_m2", required, "kg/m2", "inertia used (mass scaling), not below `mass_kg_per_m2`" },

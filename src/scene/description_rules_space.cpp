@@ -40,6 +40,8 @@ void check_plane(const SceneDescription& scene)
       refuse(key + ".stiffness_weft_n_per_m", number_text(*sheet.stiffness_weft_n_per_m), allowed);
     if (sheet.strength_weft_n_per_m)
       refuse(key + ".strength_weft_n_per_m", number_text(*sheet.strength_weft_n_per_m), allowed);
+    if (sheet.end_slack)
+      refuse(key + ".end_slack", number_text(*sheet.end_slack), allowed);
     if (!sheet.force_strain_weft_table.empty())
       refuse(key + ".force_strain_weft_table", "", allowed);
   }

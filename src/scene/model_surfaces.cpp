@@ -75,6 +75,7 @@ ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& de
   geotextile::SheetLayout section = sheet_layout(description, scene);
   geotextile::Fullness fullness;
   fullness.around = unstretched_length(description, section) / section.cloth_length();
+  fullness.ends = description.end_slack ? 1.0 + *description.end_slack : fullness.around;
   if (scene.symmetry() != Symmetry::none)
     section = { port_arc(section.points), false, {} };
   const Vec2& along = *scene.bodies.at(description.encloses).along_m;

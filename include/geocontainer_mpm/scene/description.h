@@ -241,6 +241,9 @@ struct GeotextileDescription {
   std::optional<double> stiffness_weft_n_per_m;                     ///< > 0
   std::optional<double> strength_weft_n_per_m;                      ///< > 0
   std::vector<geotextile::ForceStrainRow> force_strain_weft_table;  ///< empty: linear
+  /// In space, length of cloth in a closed end over that of the flat end, both ways, less 1, >= 0; not given: as around
+  /// the section, as if the end were gathered from the tube.
+  std::optional<double> end_slack;
   double mass_kg_per_m2 = 0.0;                                      ///< true mass: what gravity pulls, > 0
   double computational_mass_kg_per_m2 = 0.0;                        ///< inertia used (mass scaling), >= true mass
   double strength_n_per_m = 0.0;                                    ///< tensile strength of the sheet (warp), > 0
