@@ -354,11 +354,6 @@ TEST(WaterRules, SayWhereTheSurfaceIsInOneWay)
   EXPECT_EQ(release("water.draught_m=4.4"), "water.draught_m") << "over the deck";
   EXPECT_EQ(release("water.level_m=-1"), "water.level_m");
   EXPECT_DOUBLE_EQ(load_scene(scene_path("release_water")).water_level_m(), -0.8);
-  EXPECT_EQ(
-      refused(scene, { "geotextiles={skin: {encloses: block, interface: frictional, interface_friction: 0.5, slack: 0,"
-                       " stiffness_n_per_m: 1e6, mass_kg_per_m2: 1, computational_mass_kg_per_m2: 20,"
-                       " strength_n_per_m: 2e5, segment_length_m: 0.1, gauge_length_m: 0.5}}" }),
-      "geotextiles.skin.interface");
 }
 
 TEST(ReleaseWater, IsTheDefaultReleaseWithWater)
