@@ -7,6 +7,13 @@
 #include "geocontainer_mpm/scene/shapes.h"
 
 namespace geocontainer_mpm::scene {
+namespace {
+
+/// What has the kinetic energy of a fall of this height, or less, counts as at rest, m: a sheet that has to stop it
+/// takes some kN/m at most.
+constexpr double slow_fall_m = 1e-3;
+
+}  // namespace
 
 double weight_in_air_n_per_m(const SceneDescription& scene)
 {
@@ -30,8 +37,15 @@ std::vector<std::string> doubts(const StatusFrame& status, const EnergyFrame& en
   if (!(std::abs(volume_change) <= doubtful_share))
     list.push_back(fmt::format("the soil's volume changed by {:+.1f} %: more than {:.0f} %, too much for sand",
                                100.0 * volume_change, 100.0 * doubtful_share));
+  const double exchanged = std::abs(energy.dissipated_plastic) + std::abs(energy.dissipated_contact) +
+                           std::abs(energy.dissipated_transfer) + std::abs(energy.dissipated_water) +
+                           std::abs(energy.work_in);
+  if (energy.dissipated_contact < -doubtful_share * exchanged)
+    list.push_back(fmt::format("contact has given {:.3g} kJ/m of energy: friction and impact only take it",
+                               -1e-3 * energy.dissipated_contact));
   const bool left = status.outcome == Outcome::released || status.outcome == Outcome::hung_up;
-  if (left && status.resting && !(status.current_tension_n_per_m <= 0.5 * weight_n_per_m))
+  if (left && energy.kinetic <= slow_fall_m * weight_n_per_m &&
+      !(status.current_tension_n_per_m <= 0.5 * weight_n_per_m))
     list.push_back(
         fmt::format("the sheet holds {:.3g} kN/m at rest: more than half of all weight, {:.3g} kN/m, which "
                     "is what it carries when everything hangs on it",

@@ -152,11 +152,10 @@ TEST(Summary, FlagsASheetThatHoldsMoreAtRestThanWeightCanGive)
   EnergyFrame energy;
   StatusFrame status;
   status.outcome = Outcome::released;
-  status.resting = true;
   status.soil_volume_m2 = status.soil_volume_initial_m2 = 10.8;
   const double weight = weight_in_air_n_per_m(load_scene(release));
   EXPECT_NEAR(weight, 9.81 * (1990.0 * 10.8 + 0.84 * 18.3), 1e-9 * weight);
-  // A tube of fluid of this weight and as high as wide at its upright middle: gamma h^2 / 4, a quarter of it.
+  // A tube of fluid of this weight, as high as wide: gamma h^2 / 4.
   status.current_tension_n_per_m = 0.25 * weight;
   EXPECT_TRUE(doubts(status, energy, weight).empty());
   status.current_tension_n_per_m = 0.51 * weight;
@@ -165,11 +164,22 @@ TEST(Summary, FlagsASheetThatHoldsMoreAtRestThanWeightCanGive)
       << doubts(status, energy, weight)[0];
   status.outcome = Outcome::hung_up;
   EXPECT_EQ(doubts(status, energy, weight).size(), 1u);
-  status.resting = false;
+  energy.kinetic = 1.1e-3 * weight;
   EXPECT_TRUE(doubts(status, energy, weight).empty()) << "what moves may pull harder";
-  status.resting = true;
+  energy.kinetic = 0.0;
   status.outcome = Outcome::waiting;
   EXPECT_TRUE(doubts(status, energy, weight).empty()) << "laid in taut";
+}
+
+TEST(Summary, FlagsContactThatGivesEnergy)
+{
+  EnergyFrame energy;
+  energy.dissipated_plastic = 5.0e5;
+  energy.dissipated_contact = -1.0e4;  // penetration that is worked off
+  EXPECT_TRUE(doubts({}, energy, 1e5).empty());
+  energy.dissipated_contact = -5.0e4;
+  ASSERT_EQ(doubts({}, energy, 1e5).size(), 1u);
+  EXPECT_NE(doubts({}, energy, 1e5)[0].find("50 kJ/m"), std::string::npos) << doubts({}, energy, 1e5)[0];
 }
 
 }  // namespace
