@@ -8,12 +8,12 @@ from suite.run import Run
 
 TITLE = "Hanging container"
 SOURCE = "Equilibrium of the whole, and of the part below a level under the lips"
-REMARKS = """In water the hull floats at a draught of 3.5 m. The legs carry about three times the weight below the slot: what hangs there
-is also pressed on by the fill above, which stands in the slot as in a silo. Equilibrium below a level is
-legs = weight below + thrust of the fill on the cut. A level is taken in the middle between two rows of nodes, where weight, stress and
-tension weighted by the grid's own shape functions balance exactly in the bonded case: those of the nodes below sum up to a
-step that is smooth over two cells. With a frictional interface a grain presses at its middle, half its width inside the sheet, which is an error in the moment
-of the forces between the two, not in their sum."""
+REMARKS = """In water the barge draws 3.5 m. The legs carry about three times the weight below the slot: what hangs there is
+also pressed on by the fill above, which stands in the slot as in a silo. Equilibrium below a level is legs = weight below +
+thrust of the fill on the cut. The level is taken in the middle between two rows of nodes, where weight, stress and tension
+balance exactly when weighted by the grid's own shape functions: those of the nodes below sum up to a step that is smooth
+over two cells. With a frictional interface a grain presses on the sheet from its middle, half its width inside: the step
+is not the same at both ends of that force."""
 
 GRAVITY, AREA, DENSITY, SHEET, WATER = 9.81, 10.8, 1990.0, 0.84 * 18.3, 1025.0
 FROM = 5.5  # s: hangs at rest
