@@ -32,6 +32,28 @@ Vec2 place(const mpm::Particles<2>& particles, std::size_t i)
   return { particles.position[0][i], particles.position[1][i] };
 }
 
+/// How often a closed sheet goes around a place, against the clock: crossings of a ray along +y (Sunday 2001).
+int winding(const mpm::Particles<2>& nodes, const Vec2& around)
+{
+  int turns = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec2 a = place(nodes, i), b = place(nodes, i + 1 < nodes.size() ? i + 1 : 0);
+    const bool rises = a[1] <= around[1] && b[1] > around[1], falls = a[1] > around[1] && b[1] <= around[1];
+    if (!rises && !falls)
+      continue;
+    const double left = (b[0] - a[0]) * (around[1] - a[1]) - (around[0] - a[0]) * (b[1] - a[1]);
+    turns += rises && left > 0.0 ? 1 : 0;
+    turns -= falls && left < 0.0 ? 1 : 0;
+  }
+  return turns;
+}
+
+/// Whether a place on the wrong side of its nearest segment is where points do not belong, and not beyond a kink.
+bool is_through(const mpm::Particles<2>& nodes, const Vec2& point, SheetSide side)
+{
+  return (winding(nodes, point) == 0) == (side == SheetSide::inside);
+}
+
 }  // namespace
 
 template <std::size_t Most>
@@ -183,7 +205,9 @@ void SheetContact::begin(const ContactPoints<2>& points, const mpm::Grid<2>& poi
     const std::uint32_t first = first_[sheet_grid.index(cell_of(point, sheet_grid))];
     if (first == none)
       continue;
-    const Foot foot = foot_of(point, first);
+    Foot foot = foot_of(point, first);
+    if (foot.seen.distance < 0.0 && !is_through(*sheet.nodes, point, side_))
+      foot.seen = { -foot.seen.distance, -foot.seen.normal };
     const double gap = foot.seen.distance - width_of(p);
     if (gap < search && foot.seen.distance > -search)
       add(point, foot, gap, particles.id[p], point_grid, sheet, sheet_grid, dt);

@@ -7,6 +7,7 @@
 
 #include "geocontainer_mpm/barge/split_hull.h"
 #include "geocontainer_mpm/scene/design_rules.h"
+#include "geocontainer_mpm/scene/doubts.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
 namespace geocontainer_mpm::scene {
@@ -170,20 +171,6 @@ Json design_view(const Simulation& simulation, const StatusFrame& status)
   return view;
 }
 
-/// Sentences on what should make a reader doubt the run.
-Json flags(const EnergyFrame& energy, const Json& volume_change)
-{
-  constexpr double limit = 0.03;
-  Json list = Json::array();
-  if (!(energy.relative_balance_error <= limit))
-    list.push_back(fmt::format("the energy balance is open by {:.1f} % of what changed hands: more than {:.0f} %",
-                               100.0 * energy.relative_balance_error, 100.0 * limit));
-  if (volume_change.is_number() && !(std::abs(volume_change.get<double>()) <= limit))
-    list.push_back(fmt::format("the soil's volume changed by {:+.1f} %: more than {:.0f} %, too much for sand",
-                               100.0 * volume_change.get<double>(), 100.0 * limit));
-  return list;
-}
-
 Json release_time(double time_s)
 {
   return time_s >= 0.0 ? Json(time_s) : Json();
@@ -289,7 +276,9 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   add_containers(summary, status);
   summary["energy"] = energy(simulation.energy(), status.dimensions);
   summary["water"] = water(simulation.water(), status.dimensions);
-  summary["flags"] = flags(simulation.energy(), summary["soil_volume_change"]);
+  const std::optional<WaterFrame> in_water = simulation.water();
+  summary["flags"] =
+      doubts(status, simulation.energy(), in_water ? in_water->submerged_weight : weight_in_air_n_per_m(scene));
   summary["design_rules"] = design_view(simulation, status);
   summary["momentum_error"] = counters.momentum_error;
   summary["particles"] = counters.particles;

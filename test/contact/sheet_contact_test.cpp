@@ -21,9 +21,9 @@ struct Parcel {
   Field fill, sheet;
   SheetContact contact;
 
-  explicit Parcel(double friction)
-      : fill(lattice(2.0, 0.2), disc(), 0.1, 1000.0)
-      , sheet(lattice(2.0, 0.2), circle(), 0.0, 1.0)
+  explicit Parcel(double friction, const std::vector<Vec2>& grains = disc(), const std::vector<Vec2>& nodes = circle())
+      : fill(lattice(2.0, 0.2), grains, 0.1, 1000.0)
+      , sheet(lattice(2.0, 0.2), nodes, 0.0, 1.0)
       , contact(mpm::Shape::bspline2, SheetSide::inside, friction)
   {
     std::fill(sheet.particles.mass.begin(), sheet.particles.mass.end(), 2.0);
@@ -137,6 +137,41 @@ TEST(SheetContact, DoesNothingBeforeTheGapCloses)
   parcel.fill.set_velocity({ 0.1, 0.0 });
   parcel.step();  // the nearest particles are further from the sheet than half their width and this step's way
   EXPECT_EQ(Parcel::momentum_of(parcel.sheet.particles).norm(), 0.0);
+}
+
+TEST(SheetContact, LeavesGrainsOnTheirSideOfAKink)
+{
+  // The sheet's top crosses itself and hangs down as a loop that goes around like the whole: fill within it and fill
+  // around it are both inside. All is at rest, and no grain nearer to the loop than half its width: nothing may push.
+  const std::vector<Vec2> loop{ { -0.2, 0.75 }, { -0.25, 0.5 }, { -0.1, 0.3 },
+                                { 0.1, 0.3 },   { 0.25, 0.5 },  { 0.2, 0.75 } };
+  std::vector<Vec2> nodes = Parcel::circle(), grains;
+  for (const Vec2& grain : Parcel::disc()) {
+    double nearest = grain[1] > 0.75 && std::abs(grain[0]) < 0.25 ? 0.0 : 1.0;
+    for (std::size_t k = 0; k + 1 < loop.size(); ++k) {
+      const Vec2 along = loop[k + 1] - loop[k];
+      const double part = std::clamp((grain - loop[k]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (grain - loop[k] - part * along).norm());
+    }
+    if (nearest > 0.051)
+      grains.push_back(grain);
+  }
+  nodes.insert(nodes.begin() + 8, loop.begin(), loop.end());  // corner 7 is right of the top, 8 left
+  Parcel parcel(0.5, grains, nodes);
+  parcel.step();
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (const double v : parcel.fill.particles.velocity[d])
+      EXPECT_EQ(v, 0.0);
+    for (const double v : parcel.sheet.particles.velocity[d])
+      EXPECT_EQ(v, 0.0);
+  }
+}
+
+TEST(SheetContact, BringsBackWhatGotThrough)
+{
+  Parcel parcel(0.5, { { 0.0, 1.04 } });
+  parcel.step();
+  EXPECT_LT(parcel.fill.particles.velocity[1][0], -1e-3) << "m/s, the sheet yielding the other way";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "geocontainer_mpm/scene/doubts.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
 namespace geocontainer_mpm::scene {
@@ -144,6 +145,41 @@ bodies: { block: { material: jelly, shape: { box: { lower_m: [0, 0], upper_m: [1
   const nlohmann::json flags = nlohmann::json::parse(summary_json(simulation, 1.0, 1)).at("flags");
   ASSERT_EQ(flags.size(), 1u) << flags;
   EXPECT_NE(flags[0].get<std::string>().find("volume"), std::string::npos) << flags;
+}
+
+TEST(Summary, FlagsASheetThatHoldsMoreAtRestThanWeightCanGive)
+{
+  EnergyFrame energy;
+  StatusFrame status;
+  status.outcome = Outcome::released;
+  status.soil_volume_m2 = status.soil_volume_initial_m2 = 10.8;
+  const double weight = weight_in_air_n_per_m(load_scene(release));
+  EXPECT_NEAR(weight, 9.81 * (1990.0 * 10.8 + 0.84 * 18.3), 1e-9 * weight);
+  // A tube of fluid of this weight, as high as wide: gamma h^2 / 4.
+  status.current_tension_n_per_m = 0.25 * weight;
+  EXPECT_TRUE(doubts(status, energy, weight).empty());
+  status.current_tension_n_per_m = 0.51 * weight;
+  ASSERT_EQ(doubts(status, energy, weight).size(), 1u);
+  EXPECT_NE(doubts(status, energy, weight)[0].find("108 kN/m at rest"), std::string::npos)
+      << doubts(status, energy, weight)[0];
+  status.outcome = Outcome::hung_up;
+  EXPECT_EQ(doubts(status, energy, weight).size(), 1u);
+  energy.kinetic = 1.1e-3 * weight;
+  EXPECT_TRUE(doubts(status, energy, weight).empty()) << "what moves may pull harder";
+  energy.kinetic = 0.0;
+  status.outcome = Outcome::waiting;
+  EXPECT_TRUE(doubts(status, energy, weight).empty()) << "laid in taut";
+}
+
+TEST(Summary, FlagsContactThatGivesEnergy)
+{
+  EnergyFrame energy;
+  energy.dissipated_plastic = 5.0e5;
+  energy.dissipated_contact = -1.0e4;  // penetration that is worked off
+  EXPECT_TRUE(doubts({}, energy, 1e5).empty());
+  energy.dissipated_contact = -5.0e4;
+  ASSERT_EQ(doubts({}, energy, 1e5).size(), 1u);
+  EXPECT_NE(doubts({}, energy, 1e5)[0].find("50 kJ/m"), std::string::npos) << doubts({}, energy, 1e5)[0];
 }
 
 }  // namespace

@@ -10,8 +10,13 @@
 /// friction's part, which acts on a particle's middle and not on its surface: a couple of half its width times
 /// friction.
 ///
-/// Limits: a point sees one segment, the nearest; sheets that cross themselves have no inside there. Sheets and
-/// particles that are further than half a cell on the wrong side are not seen any more.
+/// A slack sheet that collapses may cross itself, since the grid does not see layers that are closer than a cell. In
+/// the kink that it leaves there is fill on either side of the sheet, and the sense of its segments no longer says what
+/// is inside. So a point on the wrong side of the segment nearest to it has got through only if the sheet as a whole
+/// does not wind around it (or, where points belong outside, does); otherwise it touches from the side where it is.
+///
+/// Limits: a point sees one segment, the nearest. Sheets and particles that are further than half a cell on the wrong
+/// side are not seen any more.
 
 #include <array>
 #include <cstddef>

@@ -13,7 +13,7 @@ import importlib
 NAMES = ["oedometer", "self_weight_column", "compaction", "vibrating_bar", "axis_aligned", "vortex", "two_discs",
          "block_on_incline", "disc_on_incline", "rotating_plate", "two_walls", "capstan", "pressurised_cylinder",
          "stretched_string", "hanging_cable", "slack_ring", "fluid_tube", "fluid_column", "channel_flow", "bui_collapse",
-         "granular_columns", "terminal_velocity"]
+         "granular_columns", "terminal_velocity", "hanging_container"]
 
 
 def load(name):
