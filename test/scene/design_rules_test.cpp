@@ -152,7 +152,7 @@ TEST(Summary, FlagsASheetThatHoldsMoreAtRestThanWeightCanGive)
   EnergyFrame energy;
   StatusFrame status;
   status.outcome = Outcome::released;
-  status.soil_volume_m2 = status.soil_volume_initial_m2 = 10.8;
+  status.soil_volume = status.soil_volume_initial = 10.8;
   const double weight = weight_in_air_n_per_m(load_scene(release));
   EXPECT_NEAR(weight, 9.81 * (1990.0 * 10.8 + 0.84 * 18.3), 1e-9 * weight);
   // A tube of fluid of this weight, as high as wide: gamma h^2 / 4.

@@ -106,7 +106,7 @@ TEST(Water, AboveItABodyFallsFreely)
   const Simulation simulation = finished(block(1800, 1.5, 2.0, 2.0), { "time.end_s=0.4" });
   const double fallen = 0.5 * gravity * 0.16;
   EXPECT_NEAR(1.7 - simulation.status().centroid_m.z(), fallen, 1e-12 * fallen);
-  EXPECT_EQ(simulation.water()->dissipated_j_per_m, 0.0);
+  EXPECT_EQ(simulation.water()->dissipated, 0.0);
 }
 
 /// Velocity of a rigid block of that density after a time, by the momentum of block and water: d((m + m_a) v)/dt = W -
