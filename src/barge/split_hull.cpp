@@ -11,6 +11,9 @@
 namespace geocontainer_mpm::barge {
 namespace {
 
+/// A corner that was rounded may end as far beyond the plane of symmetry, m.
+constexpr double round_off_m = 1e-9;
+
 std::string text(double value)
 {
   char buffer[32];
@@ -40,7 +43,7 @@ SplitHull::SplitHull(const Vec2& hinge_m, std::vector<Vec2> port_section_m, cons
     throw InputError("", key, std::to_string(port_.size()) + " points", "needs at least 2 points");
   for (std::size_t i = 0; i < port_.size(); ++i) {
     const std::string name = key + "[" + std::to_string(i) + "]";
-    if (!port_[i].allFinite() || port_[i][0] < 0.0)
+    if (!port_[i].allFinite() || port_[i][0] < -round_off_m)
       throw InputError("", name, text(port_[i]), "must be finite with y >= 0 (port)");
     if (i > 0 && port_[i] == port_[i - 1])
       throw InputError("", name, text(port_[i]), "must differ from the point before");

@@ -18,7 +18,7 @@ std::vector<const Part*> select(const std::vector<Part>& all, Keep keep)
 
 bool is_hull(const scene::BoundaryFrame& boundary)
 {
-  return boundary.name == "hull_port" || boundary.name == "hull_starboard";
+  return boundary.name.compare(0, 5, "hull_") == 0;  // a name that no surface may have
 }
 
 }  // namespace

@@ -91,7 +91,8 @@ void describe(V& v, ProbeDescription& p)
   v.section({ "geotextile", optional, "", "largest and mean tension, length, enclosed area and extent of a sheet" },
             p.geotextile);
   v.value({ "surface", optional, "",
-            "a name in `surfaces`, or hull_port or hull_starboard: force, moment about the pivot, and work" },
+            "a name in `surfaces`, or a part of the hull (hull_port, hull_starboard, in space hull_bulkhead_aft_port "
+            "and the like): force, moment about the pivot, and work" },
           p.surface, at_least(1));
   v.value({ "manufactured", optional, "", "a name in `bodies`: its distance from its manufactured solution" },
           p.manufactured, at_least(1));

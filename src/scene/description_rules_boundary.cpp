@@ -55,8 +55,8 @@ void check_boundaries(const SceneDescription& scene)
   if (scene.hull)
     check_hull(*scene.hull);
   for (const auto& [name, surface] : scene.surfaces) {
-    if (name == "hull_port" || name == "hull_starboard")
-      refuse("surfaces." + name, "", "this name is kept for a half of the hull");
+    if (name.compare(0, 5, "hull_") == 0)
+      refuse("surfaces." + name, "", "names that begin with hull_ are kept for parts of the hull");
     check_surface("surfaces." + name, surface);
   }
 }

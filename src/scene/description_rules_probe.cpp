@@ -3,6 +3,7 @@
 #include "description_leaf.h"
 #include "description_rules.h"
 #include "description_shapes.h"
+#include "geocontainer_mpm/scene/prescribed_motion.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -36,11 +37,15 @@ void check_section(const std::string& key, const SectionProbe& probe, const Grid
 
 void check_surface_name(const std::string& key, const std::string& name, const SceneDescription& scene)
 {
-  const bool half = scene.hull && (name == "hull_port" || name == "hull_starboard");
-  if (!half && scene.surfaces.count(name) == 0)
-    refuse(key, name,
-           fmt::format("must be a name in surfaces: {}{}", names_in(scene.surfaces),
-                       scene.hull ? "; or hull_port or hull_starboard" : ""));
+  if (scene.surfaces.count(name) > 0)
+    return;
+  std::string parts;
+  for (const HullPart& part : hull_parts(scene)) {
+    if (part.name == name)
+      return;
+    parts += (parts.empty() ? "; or " : " or ") + part.name;
+  }
+  refuse(key, name, fmt::format("must be a name in surfaces: {}{}", names_in(scene.surfaces), parts));
 }
 
 void check_probe(const std::string& key, const ProbeDescription& probe, const SceneDescription& scene)

@@ -18,6 +18,9 @@ constexpr double settled_part_of_rest_velocity = 0.25;
 constexpr double settled_for_s = 0.1;
 constexpr double longest_settling_s = 10.0;
 
+/// Angles of the halves further apart than this are not those of a symmetric opening, rad: half a degree, what sensors
+/// and their mounting make of one.
+constexpr double uneven_rad = 0.01;
 /// Two instants closer than this are one, s.
 constexpr double same_instant_s = 1e-9;
 /// A run can be taken back by this many steps. Fewer cost more copies, more cost more steps to take again.
@@ -155,7 +158,28 @@ void Run<Dim>::settle()
 template <int Dim>
 barge::OpeningAngles Run<Dim>::angles_at(double time_s) const
 {
-  return scene.hull && opening.known_until_s() >= 0.0 ? opening.angles(time_s) : barge::OpeningAngles{};
+  if (!scene.hull || opening.known_until_s() < 0.0)
+    return {};
+  const barge::OpeningAngles angles = opening.angles(time_s);
+  if (scene.symmetry() == Symmetry::none)
+    return angles;
+  const double mean = 0.5 * (angles.port_rad + angles.starboard_rad);
+  return { mean, mean };
+}
+
+/// A hull that opens unevenly while half of it is computed.
+template <int Dim>
+std::optional<Failure> Run<Dim>::find_uneven(double time_s) const
+{
+  if (scene.symmetry() == Symmetry::none || !scene.hull || opening.known_until_s() < 0.0)
+    return std::nullopt;
+  const barge::OpeningAngles angles = opening.angles(time_s);
+  if (std::abs(angles.port_rad - angles.starboard_rad) <= uneven_rad)
+    return std::nullopt;
+  return Failure{ fmt::format("the hull opens unevenly, port {:.4f} and starboard {:.4f} rad, more than {} rad apart: "
+                              "that needs space.symmetry none",
+                              angles.port_rad, angles.starboard_rad, uneven_rad),
+                  in_barge_frame(scene.hull->hinge_m), time_s };
 }
 
 /// The end counts as an output instant.
@@ -290,6 +314,12 @@ bool Run<Dim>::step_once(Advance& result)
   const double dt = step_length(model.stable_dt(progress.time_s)), before = progress.time_s, after = before + dt;
   if (scene.hull && after >= opening.known_until_s())
     return false;
+  if (const std::optional<Failure> uneven = find_uneven(after)) {
+    progress.stopped = true;
+    progress.failure = *uneven;
+    result = Advance::stopped;
+    return true;
+  }
   const StepInput input{ before, dt, motion.poses(before, angles_at(before)), motion.poses(after, angles_at(after)),
                          scene.numerics.damping_per_s };
   const StepStatus status = model.step(input);

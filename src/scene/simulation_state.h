@@ -52,6 +52,7 @@ struct Run {
   Run(const SceneDescription& description, int threads);
 
   barge::OpeningSignalParameters signal_parameters() const;
+  /// Of a scene of which half is computed, the mean of both halves.
   barge::OpeningAngles angles_at(double time_s) const;
   void begin();
   bool step_once(Advance& result);
@@ -79,6 +80,7 @@ private:
   double still_for_s() const;
   double next_change_s(double time_s) const;
   double step_length(double stable_dt) const;
+  std::optional<Failure> find_uneven(double time_s) const;
   std::optional<Failure> find_wrong(const StepInput& step, bool look);
   bool energy_jumped(const EnergyFrame& now);
   void save();

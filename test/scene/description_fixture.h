@@ -269,6 +269,42 @@ inline const std::string wet_scene = small_scene + R"(water:
   added_mass_coefficient: 0.5
 )";
 
+/// Keys of a scene in three dimensions.
+inline const std::string solid_scene = R"(name: solid
+time: { end_s: 2 }
+grid:
+  cell_size_m: 0.2
+  lower_m: [-4, -6]
+  upper_m: [4, 1]
+  faces: { y_min: free, y_max: free, z_min: fixed, z_max: free }
+space: { along_m: [-4, 4], x_min: free, x_max: fixed, symmetry: quarter }
+materials:
+  sand: { law: linear_elastic, density_kg_per_m3: 1990, young_modulus_pa: 3.0e6, poisson_ratio: 0.3 }
+bodies:
+  fill: { material: sand, shape: { hopper_fill: { area_m2: 3 } }, along_m: [-3, 3] }
+geotextiles:
+  bag:
+    encloses: fill
+    circumference_m: 9
+    stiffness_n_per_m: 1.1e6
+    stiffness_weft_n_per_m: 1.0e6
+    force_strain_weft_table: [[0, 0], [0.1, 1.0e5]]
+    strength_weft_n_per_m: 150e3
+    end_slack: 0.2
+    mass_kg_per_m2: 0.84
+    computational_mass_kg_per_m2: 20
+    strength_n_per_m: 200e3
+    segment_length_m: 0.2
+hull:
+  hinge_m: [0, 0]
+  port_section_m: [[1.5, -3], [0, -3], [0, -2.6], [1.5, -1], [1.5, 0]]
+  lip_radius_m: 0.1
+  friction: 0.2
+  along_m: [-3, 3]
+surfaces:
+  bed: { line_m: [[-4, -5.5], [4, -5.5]], friction: 0.5 }
+)";
+
 /// `scene` with its first `from` replaced by `to`; `from` empty: `to` appended.
 inline std::string changed(const std::string& scene, const std::string& from, const std::string& to)
 {

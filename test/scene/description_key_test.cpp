@@ -71,7 +71,7 @@ std::vector<Leaf> leaves_of(const std::string& scene)
 TEST(DescriptionKey, EveryOneIsTried)
 {
   std::set<std::string> tried{ "gravity_table", "water.level_m" };  // exclude gravity_m_per_s2 and water.draught_m
-  for (const std::string& scene : { full_scene, wet_scene })
+  for (const std::string& scene : { full_scene, wet_scene, solid_scene })
     for (const Leaf& leaf : leaves_of(scene))
       tried.insert(leaf.pattern);
   const Grammar grammar;
@@ -80,14 +80,14 @@ TEST(DescriptionKey, EveryOneIsTried)
   for (const std::string& key : grammar.values) {
     const bool other_end = key.find(".end.motion_table") != std::string::npos;
     EXPECT_TRUE(other_end || key.find(".start.force_") != std::string::npos || tried.count(key) == 1)
-        << key << " is missing in full_scene and wet_scene";
+        << key << " is missing in full_scene, wet_scene and solid_scene";
   }
 }
 
 /// Scenes that hold every key.
 class DescriptionKeys : public testing::TestWithParam<const std::string*> {};
 
-INSTANTIATE_TEST_SUITE_P(Scenes, DescriptionKeys, testing::Values(&full_scene, &wet_scene));
+INSTANTIATE_TEST_SUITE_P(Scenes, DescriptionKeys, testing::Values(&full_scene, &wet_scene, &solid_scene));
 
 TEST_P(DescriptionKeys, AreWrittenAndReadBack)
 {

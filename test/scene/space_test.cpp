@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "geocontainer_mpm/error.h"
+#include "description_fixture.h"
 #include "physics_fixture.h"
 
 namespace geocontainer_mpm::scene {
@@ -92,6 +92,19 @@ TEST(Space, AQuarterIsAsGoodAsTheWhole)
   expect_equal(quarter, whole, 4.0, 0.01);
   EXPECT_NEAR(quarter.status.length_m, whole.status.length_m, 0.01 * whole.status.length_m);
   EXPECT_NEAR(quarter.status.soil_volume, whole.status.soil_volume, 0.01 * whole.status.soil_volume);
+}
+
+TEST(Space, AnUnevenOpeningStopsHalfAModel)
+{
+  Simulation simulation(parse_scene(solid_scene, "solid.yaml", { "bodies.fill.initial_stress=k0" }), 1);
+  simulation.opening() = barge::OpeningSignal::through({ { 0.0, { 0.0, 0.0 } }, { 1.0, { 0.05, 0.02 } } }, "opening");
+  Advance now = Advance::stepped;
+  while (now == Advance::stepped || now == Advance::frame_due)
+    now = simulation.advance();
+  EXPECT_EQ(now, Advance::stopped);
+  EXPECT_NE(simulation.failure().reason.find("opens unevenly"), std::string::npos) << simulation.failure().reason;
+  EXPECT_GT(simulation.time_s(), 0.2);
+  EXPECT_LT(simulation.time_s(), 0.7);
 }
 
 }  // namespace
