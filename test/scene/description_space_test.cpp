@@ -45,8 +45,8 @@ const Broken space[] = {
   { &solid_scene, "space.along_m=[-3.95, 4]", "space.along_m", "[-3.95, 4]", "whole number of cells" },
   { &solid_scene, "bodies.fill.along_m=[-5, 5]", "bodies.fill.along_m", "[-5, 5]", "within space.along_m" },
   { &solid_scene, "hull.along_m=[3, -3]", "hull.along_m", "[3, -3]", "from below to" },
-  { &solid_scene, "geotextiles.bag.formulation=membrane_points", "geotextiles.bag.formulation", "membrane_points",
-    "must be segments" },
+  { &solid_scene, "geotextiles.bag.seams={ top: { along: 0.5 } }", "geotextiles.bag.seams", "top",
+    "plane strain alone" },
   { &solid_scene, "water={ draught_m: 2 }", "water", "", "plane strain alone" },
   { &solid_scene, "numerics.shape=gimp", "numerics.shape", "gimp", "bspline2 or linear_simplex" },
 };
