@@ -129,9 +129,9 @@ def main():
             drawn = [] if options.no_pictures else draw(sweep, results[sweep.name], out)
             rows, verdicts = report.report(sweep, results[sweep.name], out, drawn, origin())
             print(f"{sweep.name}: {len(rows)} runs, {os.path.join(out, sweep.name)}.csv and .md")
-            for text, met in verdicts:
-                print(f"  {'as expected' if met else 'NOT as expected'}: {text}")
-            if not all(met for _, met in verdicts):
+            for text, found, met in verdicts:
+                print(f"  {'as expected' if met else 'NOT as expected'}: {text}: {found}")
+            if not all(met for *_, met in verdicts):
                 status = max(status, EXPECTATION_MISSED)
             if any(row["status"] != "completed" for row in rows):
                 status = SOME_FAILED

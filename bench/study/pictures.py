@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import Normalize
 
-from figures import at, figures, tension_history
+from figures import at, figures, tension_histories
 from plotting import plot_record as pr
 
 COLOURS = [pr.BLACK, pr.RED, pr.BLUE, pr.GREEN, pr.ORANGE, pr.SKY]
@@ -56,6 +56,8 @@ def draw_sections(sweep, shown, path):
             frame = one.record.frames[index]
             pr.draw_surfaces(ax, frame, 0.3 * (y1 - y0))
             pr.draw_hull(ax, frame)
+            if "water_level_m" in frame.attrs:
+                ax.axhline(frame.attrs["water_level_m"], color=pr.SKY, linewidth=1.0, zorder=1)
             sand = pr.draw_sand(ax, frame, "speed", sand_norm) or sand
             sheet = pr.draw_geotextile(ax, frame, tension_norm) or sheet
             heading, note = pr.label(one.record, index, caption)
@@ -75,18 +77,21 @@ def draw_sections(sweep, shown, path):
 
 
 def draw_tension_history(sweep, results, path):
-    """Largest tension against time, of every run; returns whether there was any."""
+    """Largest tension against time, of every run, of the pictured ones where there are several sheets; returns whether
+    there was any."""
     figure, ax = plt.subplots(figsize=(8.5, 3.8), layout="constrained")
-    drawn, released = 0, 0.0
-    for number, row in enumerate(sweep.rows):
-        time, tension = tension_history(results[row.label].summary)
-        if time is None:
-            continue
-        ax.plot(time, np.asarray(tension, dtype=float) / 1e3, linewidth=1.1, label=row.label, **style(number))
+    released = 0.0
+    lines = [(row.label, name, history) for row in sweep.rows
+             for name, history in tension_histories(results[row.label].summary).items()]
+    several = any(name != lines[0][1] for _, name, _ in lines)
+    if several:
+        lines = [line for line in lines if line[0] in sweep.pictured]
+    for number, (label, name, (time, tension)) in enumerate(lines):
+        ax.plot(time, np.asarray(tension, dtype=float) / 1e3, linewidth=1.1,
+                label=f"{label}: {name}" if several else label, **style(number))
         moving = np.flatnonzero(np.abs(np.diff(np.asarray(tension, dtype=float))) > 20.0)
         released = max(released, time[moving[-1]] if moving.size else 0.0)
-        drawn += 1
-    if drawn:
+    if lines:
         ax.set(xlabel="time since the start [s]", ylabel="largest tension [kN/m]", xlim=(0, 1.05 * released or None))
         ax.set_ylim(bottom=0.0)
         ax.grid(color="#dddddd", linewidth=0.6)
@@ -94,7 +99,7 @@ def draw_tension_history(sweep, results, path):
         ax.set_title(f"{sweep.title}: tension against time", loc="left", weight="bold")
         figure.savefig(path, dpi=110)
     plt.close(figure)
-    return drawn > 0
+    return bool(lines)
 
 
 def perimeter(frame, circumference):
