@@ -86,12 +86,13 @@ def found(rows, item):
 
 
 def check(sweep, rows):
-    """(sentence, values, met) for every expectation. `rows`: changed keys and figures of each run."""
+    """(sentence, values, met) for every expectation; met is None where a run that it names was not made. `rows`: changed keys and figures of each run."""
     verdicts = []
     for item in sweep.expect:
         judged = chosen(rows, item)
         met = {"rising": lambda: monotone(judged, item, 1.0), "falling": lambda: monotone(judged, item, -1.0),
                "proportional": lambda: proportional(judged, item), "same": lambda: same(judged, item),
                "equals": lambda: bool(judged) and all(equal(row, item) for row in judged)}[item["trend"]]()
-        verdicts.append((sentence(item), found(judged, item), met))
+        missing = any(row["status"] == "not run" and row["label"] in item.get("rows", [row["label"]]) for row in rows)
+        verdicts.append((sentence(item), found(judged, item), None if missing else met))
     return verdicts

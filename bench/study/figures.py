@@ -38,7 +38,7 @@ PLAIN = {
     "digest": "digest",
 }
 COLUMNS = ["status", "why", *list(PLAIN)[:9], "peak_tension_in_hull_n_per_m", *list(PLAIN)[9:], "weight_n_per_m",
-           "fastest_fall_m_per_s", "terminal_velocity_m_per_s", "sheets_overlap_m", "user_cpu_s", "flags"]
+           "fastest_fall_m_per_s", "terminal_velocity_m_per_s", "sheets_overlap_m", "transfer_share", "user_cpu_s", "flags"]
 # Column "CONTAINER: this" -> path in the container's part of the summary; where there are several.
 EACH = {
     "tension_before_n_per_m": "episodes.-1.tension_before_n_per_m",
@@ -71,7 +71,7 @@ def of_all(values):
 
 
 def status(result):
-    return {0: "completed", 2: "refused", 3: "stopped"}.get(result.status, "failed")
+    return {0: "completed", 2: "refused", 3: "stopped", None: "not run"}.get(result.status, "failed")
 
 
 def probes(summary, kind):
@@ -123,6 +123,14 @@ def fall(summary):
     return -body["velocity_z_m_per_s"][fastest], terminal
 
 
+def of_record(result, what):
+    if result.record is None:
+        return None
+    import histories  # matplotlib takes a second
+
+    return getattr(histories, what)(result.record)
+
+
 def figures(result, means=None):
     """Column -> value; None where the run has none. After COLUMNS: means over times (name -> start and end) as a sweep file
     asks for, and figures of each container."""
@@ -139,7 +147,8 @@ def figures(result, means=None):
     hanging = values["rule_tension_hanging_n_per_m"]
     values["weight_n_per_m"] = None if hanging is None else 2.0 * hanging  # the rule's: fill and sheet, submerged in water
     values["fastest_fall_m_per_s"], values["terminal_velocity_m_per_s"] = fall(summary)
-    values["sheets_overlap_m"] = result.overlap() if several else None
+    values["sheets_overlap_m"] = of_record(result, "overlap") if several else None
+    values["transfer_share"] = of_record(result, "transfer_share")
     values["user_cpu_s"] = round(result.user_cpu_s, 2)
     values["flags"] = "; ".join(summary.get("flags", []))
     each = {f"{container['name']}: {column}": at(container, path) for container in several for column, path in EACH.items()}

@@ -14,7 +14,8 @@ TABLE = [("release [s]", "release_time_s", 1.0, 2), ("slot then [m]", "slot_m", 
          ("of sheet [%]", "peak_utilisation_sheet", 100.0, 0), ("of seam [%]", "peak_utilisation", 100.0, 0),
          ("centroid y [m]", "container_centroid_y_m", 1.0, 3), ("width [m]", "container_width_m", 1.0, 2), ("height [m]", "container_height_m", 1.0, 2),
          ("fastest fall [m/s]", "fastest_fall_m_per_s", 1.0, 2), ("terminal, this width [m/s]", "terminal_velocity_m_per_s", 1.0, 2),
-         ("sheets overlap [mm]", "sheets_overlap_m", 1e3, 2), ("energy error [%]", "energy_balance_error", 100.0, 2), ("volume change [%]", "soil_volume_change", 100.0, 2),
+         ("sheets overlap [mm]", "sheets_overlap_m", 1e3, 2), ("transfer took [%]", "transfer_share", 100.0, 1),
+         ("energy error [%]", "energy_balance_error", 100.0, 2), ("volume change [%]", "soil_volume_change", 100.0, 2),
          ("CPU [s]", "user_cpu_s", 1.0, 0)]
 RULES = [("circumference needed [m]", "rule_circumference_needed_m", 1.0, 2), ("slot needed [m]", "rule_slot_needed_m", 1.0, 2),
          ("tension at opening [kN/m]", "rule_tension_opening_n_per_m", 1e-3, 1),
@@ -24,6 +25,9 @@ RULES = [("circumference needed [m]", "rule_circumference_needed_m", 1.0, 2), ("
 EACH = [("before [kN/m]", "tension_before_n_per_m", 1e-3, 1), ("peak [kN/m]", "peak_tension_n_per_m", 1e-3, 1),
         ("residual [kN/m]", "residual_tension_n_per_m", 1e-3, 1), ("of seam [%]", "peak_utilisation", 100.0, 0),
         ("width [m]", "width_m", 1.0, 2), ("height [m]", "height_m", 1.0, 2), ("volume change [%]", "soil_volume_change", 100.0, 2)]
+
+
+WORDS = {True: "yes", False: "**no**", None: "not run"}
 
 
 def of_containers(rows):
@@ -72,7 +76,8 @@ def write_page(path, sweep, rows, verdicts, pictures, origin):
     lines = [f"# {sweep.title}", ""]
     if sweep.question:
         lines += [sweep.question, ""]
-    lines += [f"Written by `script/study {sweep.name}` ({origin}). Every figure: [{sweep.name}.csv]({sweep.name}.csv).", ""]
+    lines += [f"Written by `script/study {sweep.name}` ({origin}): {len(rows)} runs, {sum(row['user_cpu_s'] for row in rows):.0f} s "
+              f"of one core. Every figure: [{sweep.name}.csv]({sweep.name}.csv).", ""]
     if sweep.overrides:
         changes = ", ".join(f"`{key}={shown(value)}`" for key, value in sweep.overrides.items())
         lines += [f"Not as the sweep file has it: {changes} in every run.", ""]
@@ -90,9 +95,11 @@ def write_page(path, sweep, rows, verdicts, pictures, origin):
         lines += ["What hand rules say for the same data ([sources](../how-to.md#compare-with-hand-rules)):", "", *rules]
     if verdicts:
         lines += ["| expected | found | met |", "|---|---|---|",
-                  *(f"| {text} | {found} | {'yes' if met else '**no**'} |" for text, found, met in verdicts), ""]
+                  *(f"| {text} | {found} | {WORDS[met]} |" for text, found, met in verdicts), ""]
     for name, caption in pictures:
         lines += [f"![{caption}]({name})", ""]
+    if sweep.notes:
+        lines += [sweep.notes, ""]
     if sweep.learned:
         lines += ["## Learned", "", sweep.learned, ""]
     with open(path, "w", encoding="utf-8") as file:

@@ -59,14 +59,6 @@ class Result:
     def completed(self):
         return self.status == COMPLETED
 
-    def overlap(self):
-        """How deep the sheets of several containers reached into each other, m; None without a record."""
-        if self.record is None:
-            return None
-        from overlap import deepest  # matplotlib takes a second
-
-        return deepest(self.record)
-
 
 def kept(folder):
     """The result of a finished run, or None."""

@@ -9,7 +9,7 @@ import yaml
 
 from figures import COLUMNS
 
-KEYS = ("title", "question", "scene", "angles", "set", "follow", "stretch", "scale", "lift", "means", "sweep", "rows", "expect", "pictures", "learned")
+KEYS = ("title", "question", "scene", "angles", "set", "follow", "stretch", "scale", "lift", "means", "sweep", "rows", "expect", "pictures", "beside", "notes", "learned")
 ROW_KEYS = ("label", "effort")
 TRENDS = ("rising", "falling", "proportional", "same", "equals")
 EXPECTATION_KEYS = ("figure", "trend", "against", "rows", "where", "value", "relative", "absolute", "why")
@@ -40,7 +40,10 @@ class Sweep:
     question: str = ""
     expect: list = field(default_factory=list)
     pictured: list = field(default_factory=list)  # labels
-    curves: list = field(default_factory=list)  # figures drawn against the first changed key
+    curves: list = field(default_factory=list)  # figures drawn against the first changed key, or {figure, against}
+    by: list | None = None  # keys that tell their lines apart; None: all that change
+    notes: str = ""  # Markdown for the page, before what was learned
+    beside: str | None = None  # a program that measures what no run of a scene does
     means: dict = field(default_factory=dict)  # name -> start and end, s: of the tension's means
     learned: str = ""
     overrides: dict = field(default_factory=dict)  # --set
@@ -117,7 +120,7 @@ class _Reader:
         sweep = Sweep(name, self.path, self.part("title", str, "text", name), self.scene, angles, rows,
                       question=self.part("question", str, "text", "").strip(),
                       learned=self.part("learned", str, "text", "").strip(), overrides=self.overrides,
-                      means=self.spans())
+                      means=self.spans(), beside=self.file("beside", False), notes=self.part("notes", str, "text", "").strip())
         self.pictures(sweep)
         sweep.expect = [self.expectation(sweep, i, item)
                         for i, item in enumerate(self.part("expect", list, "a list", []))]
@@ -197,16 +200,19 @@ class _Reader:
         return table
 
     def pictures(self, sweep):
-        pictures = self.part("pictures", dict, "a map with the keys sections and curves", {})
+        pictures = self.part("pictures", dict, "a map with the keys sections, curves, by", {})
         for key in pictures:
-            if key not in ("sections", "curves"):
-                self.refuse(f"pictures.{key}", pictures[key], "unknown key; allowed: sections, curves")
+            if key not in ("sections", "curves", "by"):
+                self.refuse(f"pictures.{key}", pictures[key], "unknown key; allowed: sections, curves, by")
         labels = [row.label for row in sweep.rows]
         sweep.pictured = [str(label) for label in pictures.get("sections") or []]
         for label in sweep.pictured:
             if label not in labels:
                 self.refuse("pictures.sections", label, f"no row has this label; there are: {'; '.join(labels)}")
-        sweep.curves = list(pictures.get("curves") or [])
+        sweep.curves, sweep.by = list(pictures.get("curves") or []), pictures.get("by")
+        for curve in sweep.curves:
+            if not isinstance(curve, str) and not (isinstance(curve, dict) and set(curve) == {"figure", "against"}):
+                self.refuse("pictures.curves", curve, "must be a column of the CSV, or a figure and what it is drawn against")
 
     def expectation(self, sweep, index, item):
         name = f"expect[{index}]"

@@ -1,4 +1,4 @@
-"""How deep closed sheets of several containers reach into each other."""
+"""Figures that the frames of a record tell and the summary does not."""
 
 import numpy as np
 from matplotlib.path import Path
@@ -26,8 +26,23 @@ def of_frame(frame):
     return depth
 
 
-def deepest(path):
-    """The largest over the frames of a record, m."""
+def transfer_share(path):
+    """Until the middle of the fill leaves the hull, of all that was dissipated, the part that the transfer between particles
+    and grid took: what the discretisation resists the flow through the slot. None where it does not leave."""
+    record = pr.Record(path)
+    try:
+        for height, frame in zip(record.height, record.frames):
+            bodies = [body for _, body in pr.hull_bodies(frame)]
+            if bodies and height < min(body[:, 1].min() for body in bodies):
+                energy = frame["energy"].attrs
+                return float(energy["dissipated_transfer_j_per_m"] / energy["dissipated_j_per_m"])
+        return None
+    finally:
+        record.file.close()
+
+
+def overlap(path):
+    """How deep the sheets of several containers ever reached into each other, m."""
     record = pr.Record(path)
     try:
         return float(max(of_frame(frame) for frame in record.frames))
