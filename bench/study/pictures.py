@@ -21,7 +21,6 @@ AXES = {"release_time_s": ("release time [s]", 1.0), "peak_tension_n_per_m": ("p
            for name in ("lower", "upper") for kind in ("peak", "residual")},
         "weight_n_per_m": ("weight, submerged [kN/m]", 1e-3), "water.draught_m": ("draught [m]", 1.0),
         "mean_tension_opening_n_per_m": ("mean tension, 17 to 19 s [kN/m]", 1e-3),
-        "fastest_fall_m_per_s": ("fastest fall [m/s]", 1.0), "terminal_velocity_m_per_s": ("terminal velocity [m/s]", 1.0),
         "transfer_share": ("dissipated by transfer until release [%]", 100.0)}
 
 
