@@ -103,8 +103,8 @@ def compute(options, runner, wanted):
 
 def there(runner, wanted):
     """Results by study and label of the runs that are there already."""
-    return {sweep.name: {row.label: kept(runner.cache.folder_of(sweep, row)) or Result(None, None, "not run", 0.0) for row in sweep.rows}
-            for sweep in wanted}
+    none = Result(None, None, "not run", 0.0)
+    return {sweep.name: {row.label: kept(runner.cache.folder_of(sweep, row)) or none for row in sweep.rows} for sweep in wanted}
 
 
 def measure_beside(sweep, cache, folder):

@@ -86,7 +86,8 @@ def found(rows, item):
 
 
 def check(sweep, rows):
-    """(sentence, values, met) for every expectation; met is None where a run that it names was not made. `rows`: changed keys and figures of each run."""
+    """(sentence, values, met) for every expectation; met is None where a run that it names was not made. `rows`: changed keys
+    and figures of each run."""
     verdicts = []
     for item in sweep.expect:
         judged = chosen(rows, item)

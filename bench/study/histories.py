@@ -32,10 +32,10 @@ def transfer_share(path):
     record = pr.Record(path)
     try:
         for height, frame in zip(record.height, record.frames):
-            bodies = [body for _, body in pr.hull_bodies(frame)]
-            if bodies and height < min(body[:, 1].min() for body in bodies):
+            if "hull" in frame and height < frame["hull/position"][:, 2].min():
                 energy = frame["energy"].attrs
-                return float(energy["dissipated_transfer_j_per_m"] / energy["dissipated_j_per_m"])
+                unit = "j_per_m" if "dissipated_j_per_m" in energy else "j"  # a slice, or in space
+                return float(energy[f"dissipated_transfer_{unit}"] / energy[f"dissipated_{unit}"])
         return None
     finally:
         record.file.close()

@@ -16,7 +16,8 @@ AXES = {"release_time_s": ("release time [s]", 1.0), "peak_tension_n_per_m": ("p
         "peak_tension_in_hull_n_per_m": ("peak until release [kN/m]", 1e-3),
         "residual_tension_n_per_m": ("residual tension [kN/m]", 1e-3), "container_width_m": ("final width [m]", 1.0),
         "container_height_m": ("final height [m]", 1.0), "geotextile_elongation_max": ("largest elongation [%]", 100.0),
-        "slot_m": ("slot at release [m]", 1.0), "lifted_m": ("gap, beyond 1.5 m [m]", 1.0), "grid.cell_size_m": ("cell size [m]", 1.0),
+        "slot_m": ("slot at release [m]", 1.0), "lifted_m": ("gap, beyond 1.5 m [m]", 1.0),
+        "grid.cell_size_m": ("cell size [m]", 1.0),
         **{f"{name}: {kind}_tension_n_per_m": (f"{name}: {kind} tension [kN/m]", 1e-3)
            for name in ("lower", "upper") for kind in ("peak", "residual")},
         "weight_n_per_m": ("weight, submerged [kN/m]", 1e-3), "water.draught_m": ("draught [m]", 1.0),
@@ -174,7 +175,7 @@ def draw_curves(sweep, results, path):
             beside = [point for point in own if point not in line]
             if line:
                 ax.plot(*zip(*line), marker="o", markersize=4, **style(number),
-                        label=", ".join(f"{key.split('.')[-1]} {value}" for key, value in group) if len(groups) > 1 else None)
+                        label=group_label(group) if len(groups) > 1 else None)
             if beside:
                 ax.plot(*zip(*beside), linestyle="", marker="o", markersize=6, fillstyle="none", color=style(number)["color"])
         ax.set(xlabel=across, ylabel=label)
@@ -186,14 +187,17 @@ def draw_curves(sweep, results, path):
     return True
 
 
+def group_label(group):
+    return ", ".join(f"{key.split('.')[-1]} {value}" for key, value in group) or "as the scene"
+
+
 def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def flat(record):
     """A slice: its pictures are sections. A record in space has none here."""
-    frame = record.frames[0]
-    return all(not frame[path][:, 0].any() for path in ("soil/position", "geotextile/node") if path in frame)
+    return int(record.frames[0].attrs.get("dimensions", 2)) == 2
 
 
 def draw(sweep, results, folder):

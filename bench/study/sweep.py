@@ -9,7 +9,8 @@ import yaml
 
 from figures import COLUMNS
 
-KEYS = ("title", "question", "scene", "angles", "set", "follow", "stretch", "scale", "lift", "means", "sweep", "rows", "expect", "pictures", "beside", "notes", "learned")
+KEYS = ("title", "question", "scene", "angles", "set", "follow", "stretch", "scale", "lift", "means", "sweep", "rows",
+        "expect", "pictures", "beside", "notes", "learned")
 ROW_KEYS = ("label", "effort")
 TRENDS = ("rising", "falling", "proportional", "same", "equals")
 EXPECTATION_KEYS = ("figure", "trend", "against", "rows", "where", "value", "relative", "absolute", "why")
