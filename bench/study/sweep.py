@@ -123,8 +123,8 @@ class _Reader:
                       learned=self.part("learned", str, "text", "").strip(), overrides=self.overrides,
                       means=self.spans(), beside=self.file("beside", False), notes=self.part("notes", str, "text", "").strip())
         self.pictures(sweep)
-        sweep.expect = [self.expectation(sweep, i, item)
-                        for i, item in enumerate(self.part("expect", list, "a list", []))]
+        sweep.expect = [self.expectation(sweep, i, item) for i, item in enumerate(self.part("expect", list, "a list", []))
+                        if not (isinstance(item, dict) and self.left_out.intersection(item.get("rows", [])))]
         return sweep
 
     def spans(self):
@@ -151,7 +151,9 @@ class _Reader:
         for label in labels:
             if labels.count(label) > 1:
                 self.refuse("rows", label, "two rows have this label; every row needs its own")
-        return rows
+        # A row that changes nothing but what --set has fixed is none of its own.
+        self.left_out = {row.label for row in rows if row.changed and set(row.changed) <= set(self.overrides)}
+        return [row for row in rows if row.label not in self.left_out] or rows[:1]
 
     def row(self, change):
         special = {key: change[key] for key in ROW_KEYS if key in change}
@@ -206,7 +208,7 @@ class _Reader:
             if key not in ("sections", "curves", "by"):
                 self.refuse(f"pictures.{key}", pictures[key], "unknown key; allowed: sections, curves, by")
         labels = [row.label for row in sweep.rows]
-        sweep.pictured = [str(label) for label in pictures.get("sections") or []]
+        sweep.pictured = [str(label) for label in pictures.get("sections") or [] if str(label) not in self.left_out]
         for label in sweep.pictured:
             if label not in labels:
                 self.refuse("pictures.sections", label, f"no row has this label; there are: {'; '.join(labels)}")
