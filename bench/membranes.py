@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""Two formulations of the geotextile against grid and segment length, after section 3 of the founding paper.
+"""Two formulations of the geotextile where the tension is known, after section 3 of the founding paper.
 
 Sweeps cell size and segment length (distance of the membrane points) on a cylinder under pressure, a hanging cable and a
-fluid-filled tube, whose tension is known everywhere, and on the release scene: its largest gauge tension hanging in the
-slot, at its peak and landed, where segments of half the smallest cell size are the reference. Writes membranes.csv and membranes.png; rows that the
-CSV has already are not run again. Every run has one thread.
+fluid-filled tube. Writes membranes_exact.csv and membranes_exact.png; a part of `script/study membranes`. Every run has one
+thread.
 
-    error      mean over the sheet of tension over exact tension, less 1 (container: largest gauge tension)
+    error      mean over the sheet of tension over exact tension, less 1
     scatter    standard deviation of the same over the sheet: what a single segment may be off by
     length     of the line of points over the exact one, less 1: membrane points may part without a strain
 """
@@ -18,6 +17,7 @@ import os
 import sys
 
 import numpy as np
+from tqdm import tqdm
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "test", "verification"))
@@ -29,15 +29,12 @@ from suite.run import Run, scene_path, simulate  # noqa: E402
 COLUMNS = ["case", "formulation", "dx", "segment_length", "error", "scatter", "length_error", "tension_n_per_m",
            "balance_error", "user_cpu_s"]
 FORMULATIONS = ["segments", "membrane_points"]
-SIZES = {"cylinder": [0.2, 0.1, 0.05], "cable": [0.2, 0.1, 0.05], "tube": [0.2, 0.1, 0.05],
-         "container": [0.2, 0.1]}
-PARTS = ["container hanging", "container peak", "container landed"]  # of one run
+SIZES = [0.2, 0.1, 0.05]
+SCENES = {"cylinder": ("pressurised_cylinder", "cylinder"), "cable": ("hanging_cable", "cable"), "tube": ("fluid_tube", "tube")}
 # Segment length over cell size. A scene refuses fewer than two membrane points a cell.
 RATIOS = {"segments": [0.25, 0.5, 1.0, 2.0], "membrane_points": [0.125, 0.25, 0.5]}
-CONTAINER_RATIOS = {"segments": [0.5, 1.0, 2.0], "membrane_points": [0.25, 0.5]}
 LENGTHS = {"cylinder": 2 * math.pi * pressurised_cylinder.RADIUS_AT_REST, "cable": hanging_cable.LENGTH * 1.0006,
            "tube": fluid_tube.LENGTH * (1 + fluid_tube.shape(0.05)[2] * fluid_tube.WEIGHT * fluid_tube.LENGTH**2 / 4e6)}
-HANGING, LANDED = (13.0, 14.0), (55.0, 60.0)  # s: over which the container's largest tension is averaged
 
 
 def overrides(case, sheet, formulation, dx, segment):
@@ -49,8 +46,6 @@ def overrides(case, sheet, formulation, dx, segment):
         keys["geotextiles.cable.gauge_length_m"] = segment
     if case == "cylinder":
         keys.update({"numerics.damping_per_s": 300, "geotextiles.cylinder.inside_pressure.table": [[0, 0], [0.1, 1]]})
-    if case == "container":
-        keys.update({"time.probe_interval_s": 0.05, "probes": {"sheet": {"geotextile": {"name": "container"}}}})
     return keys
 
 
@@ -77,64 +72,34 @@ def row(case, formulation, dx, segment, result, error=math.nan, scatter=math.nan
 
 
 def run_exact(program, case, formulation, dx, segment):
-    scene, sheet = {"cylinder": ("pressurised_cylinder", "cylinder"), "cable": ("hanging_cable", "cable"),
-                    "tube": ("fluid_tube", "tube")}[case]
+    scene, sheet = SCENES[case]
     result = simulate(program, scene_path(scene), Run("", overrides(case, sheet, formulation, dx, segment), record=True))
     if result.stopped:
-        return [row(case, formulation, dx, segment, result)]
+        return row(case, formulation, dx, segment, result)
     tension, place = along_the_sheet(result)
     ratio = tension / exact(case, place)
     probe = next(probe for probe in result.summary["probes"].values() if probe["kind"] == "geotextile")
-    return [row(case, formulation, dx, segment, result, ratio.mean() - 1, ratio.std(),
-                probe["length_m"][-1] / LENGTHS[case] - 1, tension.mean())]
+    return row(case, formulation, dx, segment, result, ratio.mean() - 1, ratio.std(),
+               probe["length_m"][-1] / LENGTHS[case] - 1, tension.mean())
 
 
-def run_container(program, formulation, dx, segment):
-    """The errors are filled in when the reference is known."""
-    scene = os.path.join(ROOT, "config", "scenes", "release.yaml")
-    result = simulate(program, scene, Run("", overrides("container", "container", formulation, dx, segment)), 3000.0)
-    tension = [result.mean("sheet", "tension_max_n_per_m", *HANGING),
-               math.nan if result.stopped else result.summary["peak_tension_n_per_m"],
-               result.mean("sheet", "tension_max_n_per_m", *LANDED)]
-    return [row(part, formulation, dx, segment, result, tension=value) for part, value in zip(PARTS, tension)]
-
-
-def refer_container(rows):
-    """Errors of the container: against the finest segments."""
-    for part in PARTS:
-        own = [r for r in rows if r["case"] == part]
-        finest = min((r for r in own if r["formulation"] == "segments"),
-                     key=lambda r: (float(r["dx"]), float(r["segment_length"])), default=None)
-        for r in own:
-            r["error"] = f"{float(r['tension_n_per_m']) / float(finest['tension_n_per_m']) - 1:.3e}" if finest else "nan"
-
-
-def sweep(program, wanted, rows, write):
-    key = lambda r: (r["case"], r["formulation"], float(r["dx"]), float(r["segment_length"]))  # noqa: E731
-    done = {key(r) for r in rows}
-    todo = [(case, formulation, dx, ratio * dx) for case in wanted for dx in SIZES[case] for formulation in FORMULATIONS
-            for ratio in (CONTAINER_RATIOS if case == "container" else RATIOS)[formulation]]
-    if "container" in wanted:  # what it is compared with
-        todo.append(("container", "segments", min(SIZES["container"]) / 2, min(SIZES["container"]) / 2))
-    for number, (case, formulation, dx, segment) in enumerate(todo, 1):
-        first = PARTS[0] if case == "container" else case
-        if (first, formulation, dx, float(f"{segment:g}")) in done:  # as the table has it
-            continue
-        print(f"{number} of {len(todo)}: {case}, {formulation}, dx {dx:g}, {segment:g}", flush=True)
-        rows += (run_container(program, formulation, dx, segment) if case == "container"
-                 else run_exact(program, case, formulation, dx, segment))
-        refer_container(rows)
-        write()
+def sweep(program, rows, write):
+    """Runs what `rows` has not yet."""
+    done = {(r["case"], r["formulation"], r["dx"], r["segment_length"]) for r in rows}
+    todo = [(case, formulation, dx, ratio * dx) for case in SCENES for dx in SIZES for formulation in FORMULATIONS
+            for ratio in RATIOS[formulation]]
+    for case, formulation, dx, segment in tqdm(todo, unit="run", desc="exact cases", mininterval=0.0 if sys.stderr.isatty() else 30.0):
+        if (case, formulation, f"{dx:g}", f"{segment:g}") not in done:
+            rows.append(run_exact(program, case, formulation, dx, segment))
+            write()
 
 
 def draw(rows, path):
-    present = [case for case in [*SIZES, *PARTS] if any(r["case"] == case for r in rows)]
     markers = {0.125: "D", 0.25: "v", 0.5: "s", 1.0: "o", 2.0: "^"}
     plt = pyplot()
     with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(2, len(present), figsize=(2.6 * len(present), 5.2), constrained_layout=True,
-                                    squeeze=False)
-        for axis, (what, case) in zip(axes.flat, [(what, case) for what in ("error", "scatter") for case in present]):
+        figure, axes = plt.subplots(2, len(SCENES), figsize=(2.8 * len(SCENES), 5.2), constrained_layout=True)
+        for axis, (what, case) in zip(axes.flat, [(what, case) for what in ("error", "scatter") for case in SCENES]):
             for colour, formulation in zip(COLOURS, FORMULATIONS):
                 for ratio, marker in markers.items():
                     own = sorted((float(r["dx"]), abs(float(r[what]))) for r in rows
@@ -144,11 +109,8 @@ def draw(rows, path):
                     if own:
                         axis.loglog(*zip(*own), marker=marker, color=colour, markersize=4, linewidth=0.9,
                                     label=f"{formulation.replace('_', ' ')}, l = {ratio:g} dx")
-            if what == "scatter" and case.startswith("container"):
-                axis.set_visible(False)
-                continue
             axis.set(xlabel="cell size [m]", title=f"{case}: {what}")
-            axis.set_xticks(SIZES["tube"], [f"{size:g}" for size in SIZES["tube"]])
+            axis.set_xticks(SIZES, [f"{size:g}" for size in SIZES])
             axis.minorticks_off()
             axis.set_ylim(1e-5, 1.0)
         handles, labels = axes[0][0].get_legend_handles_labels()
@@ -160,25 +122,24 @@ def draw(rows, path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--simulate", required=True, help="the program")
-    parser.add_argument("--case", action="append", choices=list(SIZES), help="this case; may be given again")
-    parser.add_argument("--out", default=os.path.join(ROOT, "docs", "study"), help="folder for membranes.csv and .png")
+    parser.add_argument("--out", required=True, help="folder for membranes_exact.csv and .png")
+    parser.add_argument("--kept", required=True, help="table of the runs that were made; they are not made again")
     arguments = parser.parse_args()
-    os.makedirs(arguments.out, exist_ok=True)
-    table = os.path.join(arguments.out, "membranes.csv")
     rows = []
-    if os.path.exists(table):
-        with open(table, newline="", encoding="utf-8") as file:
+    if os.path.exists(arguments.kept):
+        with open(arguments.kept, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
 
-    def write():
-        with open(table + ".part", "w", newline="", encoding="utf-8") as file:
+    def write(path=arguments.kept):
+        with open(path + ".part", "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
             writer.writeheader()
             writer.writerows(rows)
-        os.replace(table + ".part", table)
+        os.replace(path + ".part", path)
 
-    sweep(os.path.abspath(arguments.simulate), arguments.case or list(SIZES), rows, write)
-    draw(rows, os.path.join(arguments.out, "membranes.png"))
+    sweep(os.path.abspath(arguments.simulate), rows, write)
+    write(os.path.join(arguments.out, "membranes_exact.csv"))
+    draw(rows, os.path.join(arguments.out, "membranes_exact.png"))
 
 
 if __name__ == "__main__":

@@ -13,10 +13,11 @@ from tqdm import tqdm
 
 import report
 import sweep as sweeps
-from runs import Cache, Interrupted, Runner, kept, run_all
+from runs import Cache, Interrupted, Result, Runner, kept, run_all
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 STUDIES = os.path.join(ROOT, "config", "studies")
+WORDS = {True: "as expected", False: "NOT as expected", None: "not run"}
 ALL_RAN, EXPECTATION_MISSED, BAD_SWEEP, SOME_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 
@@ -53,6 +54,7 @@ def parse():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at once (default: cores)")
     parser.add_argument("--out", metavar="DIR", help="for CSV, page, pictures (default: docs/study, or study_NAME here)")
     parser.add_argument("--cache", default=os.path.join(ROOT, "build-study"), metavar="DIR", help="finished runs are kept here")
+    parser.add_argument("--no-runs", action="store_true", help="report on the runs that are there, those of an interrupted study")
     parser.add_argument("--no-pictures", action="store_true", help="neither records nor pictures")
     parser.add_argument("--simulate", required=True, metavar="PROGRAM", help=argparse.SUPPRESS)
     parser.add_argument("--directory", default=os.getcwd(), help=argparse.SUPPRESS)
@@ -99,6 +101,21 @@ def compute(options, runner, wanted):
     return results
 
 
+def there(runner, wanted):
+    """Results by study and label of the runs that are there already."""
+    none = Result(None, None, "not run", 0.0)
+    return {sweep.name: {row.label: kept(runner.cache.folder_of(sweep, row)) or none for row in sweep.rows} for sweep in wanted}
+
+
+def measure_beside(sweep, cache, folder):
+    """The program that a sweep names; whether it ended well."""
+    if sweep.beside is None:
+        return True
+    kept_rows = os.path.join(cache.folder, f"{sweep.name}-{cache.version[:24]}.csv")
+    command = [sys.executable, sweep.beside, "--simulate", cache.program, "--out", folder, "--kept", kept_rows]
+    return subprocess.run(command, check=False).returncode == 0
+
+
 def draw(sweep, results, folder):
     import pictures  # matplotlib takes a second
 
@@ -123,17 +140,18 @@ def main():
         os.makedirs(out, exist_ok=True)
         runner = Runner(Cache(os.path.join(options.directory, options.cache), os.path.abspath(options.simulate),
                               record=not options.no_pictures))
-        results = compute(options, runner, wanted)
+        results = there(runner, wanted) if options.no_runs else compute(options, runner, wanted)
         status = ALL_RAN
         for sweep in wanted:
+            measured = measure_beside(sweep, runner.cache, out)
             drawn = [] if options.no_pictures else draw(sweep, results[sweep.name], out)
             rows, verdicts = report.report(sweep, results[sweep.name], out, drawn, origin())
             print(f"{sweep.name}: {len(rows)} runs, {os.path.join(out, sweep.name)}.csv and .md")
-            for text, met in verdicts:
-                print(f"  {'as expected' if met else 'NOT as expected'}: {text}")
-            if not all(met for _, met in verdicts):
+            for text, found, met in verdicts:
+                print(f"  {WORDS[met]}: {text}: {found}")
+            if not all(met for *_, met in verdicts):
                 status = max(status, EXPECTATION_MISSED)
-            if any(row["status"] != "completed" for row in rows):
+            if not measured or any(row["status"] != "completed" for row in rows):
                 status = SOME_FAILED
         if out == os.path.join(ROOT, "docs", "study"):
             everything = [sweeps.load(os.path.join(STUDIES, f"{name}.yaml")) for name in names()]

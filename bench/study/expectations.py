@@ -14,10 +14,10 @@ def number(row, key):
 
 
 def chosen(rows, item):
-    """Rows that completed, change the key that is asked about, and have the values that `where` asks for."""
-    where = item.get("where", {})
+    """Rows that completed, change the key that is asked about, and are among `rows` and have the values of `where`."""
+    where, labels = item.get("where", {}), item.get("rows")
     return [row for row in rows if row["status"] == "completed" and row.get(item.get("against", "label")) is not None
-            and all(row.get(key) == value for key, value in where.items())]
+            and (labels is None or row["label"] in labels) and all(row.get(key) == value for key, value in where.items())]
 
 
 def allowance(item, *values):
@@ -25,9 +25,15 @@ def allowance(item, *values):
     return max(float(item.get("absolute", 0.0)), float(item.get("relative", 0.0)) * largest)
 
 
+def ordered(rows, item):
+    """By what they are judged against, or else as `rows` names them."""
+    if "against" in item:
+        return sorted(rows, key=lambda row: number(row, item["against"]))
+    return sorted(rows, key=lambda row: item["rows"].index(row["label"])) if "rows" in item else rows
+
+
 def monotone(rows, item, sign):
-    ordered = sorted(rows, key=lambda row: number(row, item["against"]))
-    values = [sign * number(row, item["figure"]) for row in ordered]
+    values = [sign * number(row, item["figure"]) for row in ordered(rows, item)]
     for before, after in zip(values, values[1:]):
         if math.isinf(before) and math.isinf(after):
             continue
@@ -43,12 +49,12 @@ def proportional(rows, item):
 
 def same(rows, item):
     """The last two rows, which are the finest."""
-    values = [number(row, item["figure"]) for row in rows[-2:]]
+    values = [number(row, item["figure"]) for row in ordered(rows, item)[-2:]]
     return len(values) == 2 and (values[0] == values[1] or abs(values[1] - values[0]) <= allowance(item, *values))
 
 
 def equal(row, item):
-    value, wanted = row[item["figure"]], item["value"]
+    value, wanted = row.get(item["figure"]), item["value"]
     if isinstance(value, (int, float)) and isinstance(wanted, (int, float)):
         return abs(value - wanted) <= allowance(item, wanted)
     return value == wanted
@@ -60,22 +66,34 @@ def sentence(item):
         [f"{item['absolute']:g}"] if "absolute" in item else [])
     within = " or ".join(limits)
     trend = item["trend"]
-    text = {"rising": f"{item['figure']} does not fall with {item.get('against')}",
-            "falling": f"{item['figure']} does not rise with {item.get('against')}",
+    order = f"with {item['against']}" if "against" in item else "from run to run"
+    text = {"rising": f"{item['figure']} does not fall {order}",
+            "falling": f"{item['figure']} does not rise {order}",
             "proportional": f"{item['figure']} is proportional to {item.get('against')}",
-            "same": f"{item['figure']} is the same in the last two rows",
+            "same": f"{item['figure']} is the same in {' and '.join(item.get('rows', ['the last two rows']))}",
             "equals": f"{item['figure']} is {item.get('value')}"}[trend]
-    return text + (f" (within {within})" if within else "") + (f" where {where}" if where else "") + (
+    rows = f" in {'; '.join(item['rows'])}" if "rows" in item and trend != "same" else ""
+    return text + (f" (within {within})" if within else "") + (f" where {where}" if where else "") + rows + (
         f": {item['why']}" if "why" in item else "")
 
 
+def found(rows, item):
+    """The values that were judged, in the order of what they are judged against."""
+    rows = ordered(rows, item)
+    values = [row.get(item["figure"]) for row in (rows[-2:] if item["trend"] == "same" else rows)]
+    return ", ".join("-" if value is None else f"{value:.4g}" if isinstance(value, float) else str(value)
+                     for value in (values if item["trend"] != "equals" else dict.fromkeys(values)))
+
+
 def check(sweep, rows):
-    """(sentence, met) for every expectation. `rows`: changed keys and figures of each run."""
+    """(sentence, values, met) for every expectation; met is None where a run that it names was not made. `rows`: changed keys
+    and figures of each run."""
     verdicts = []
     for item in sweep.expect:
         judged = chosen(rows, item)
         met = {"rising": lambda: monotone(judged, item, 1.0), "falling": lambda: monotone(judged, item, -1.0),
                "proportional": lambda: proportional(judged, item), "same": lambda: same(judged, item),
                "equals": lambda: bool(judged) and all(equal(row, item) for row in judged)}[item["trend"]]()
-        verdicts.append((sentence(item), met))
+        missing = any(row["status"] == "not run" and row["label"] in item.get("rows", [row["label"]]) for row in rows)
+        verdicts.append((sentence(item), found(judged, item), None if missing else met))
     return verdicts

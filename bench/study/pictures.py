@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import Normalize
 
-from figures import at, figures, tension_history
+from figures import at, figures, tension_histories
 from plotting import plot_record as pr
 
 COLOURS = [pr.BLACK, pr.RED, pr.BLUE, pr.GREEN, pr.ORANGE, pr.SKY]
@@ -16,7 +16,13 @@ AXES = {"release_time_s": ("release time [s]", 1.0), "peak_tension_n_per_m": ("p
         "peak_tension_in_hull_n_per_m": ("peak until release [kN/m]", 1e-3),
         "residual_tension_n_per_m": ("residual tension [kN/m]", 1e-3), "container_width_m": ("final width [m]", 1.0),
         "container_height_m": ("final height [m]", 1.0), "geotextile_elongation_max": ("largest elongation [%]", 100.0),
-        "slot_m": ("slot at release [m]", 1.0)}
+        "slot_m": ("slot at release [m]", 1.0), "lifted_m": ("gap, beyond 1.5 m [m]", 1.0),
+        "grid.cell_size_m": ("cell size [m]", 1.0),
+        **{f"{name}: {kind}_tension_n_per_m": (f"{name}: {kind} tension [kN/m]", 1e-3)
+           for name in ("lower", "upper") for kind in ("peak", "residual")},
+        "weight_n_per_m": ("weight, submerged [kN/m]", 1e-3), "water.draught_m": ("draught [m]", 1.0),
+        "mean_tension_opening_n_per_m": ("mean tension, 17 to 19 s [kN/m]", 1e-3),
+        "transfer_share": ("dissipated by transfer until release [%]", 100.0)}
 
 
 def style(number):
@@ -56,6 +62,8 @@ def draw_sections(sweep, shown, path):
             frame = one.record.frames[index]
             pr.draw_surfaces(ax, frame, 0.3 * (y1 - y0))
             pr.draw_hull(ax, frame)
+            if "water_level_m" in frame.attrs:
+                ax.axhline(frame.attrs["water_level_m"], color=pr.SKY, linewidth=1.0, zorder=1)
             sand = pr.draw_sand(ax, frame, "speed", sand_norm) or sand
             sheet = pr.draw_geotextile(ax, frame, tension_norm) or sheet
             heading, note = pr.label(one.record, index, caption)
@@ -75,18 +83,21 @@ def draw_sections(sweep, shown, path):
 
 
 def draw_tension_history(sweep, results, path):
-    """Largest tension against time, of every run; returns whether there was any."""
+    """Largest tension against time, of every run, of the pictured ones where there are several sheets; returns whether
+    there was any."""
     figure, ax = plt.subplots(figsize=(8.5, 3.8), layout="constrained")
-    drawn, released = 0, 0.0
-    for number, row in enumerate(sweep.rows):
-        time, tension = tension_history(results[row.label].summary)
-        if time is None:
-            continue
-        ax.plot(time, np.asarray(tension, dtype=float) / 1e3, linewidth=1.1, label=row.label, **style(number))
+    released = 0.0
+    lines = [(row.label, name, history) for row in sweep.rows
+             for name, history in tension_histories(results[row.label].summary).items()]
+    several = any(name != lines[0][1] for _, name, _ in lines)
+    if several:
+        lines = [line for line in lines if line[0] in sweep.pictured]
+    for number, (label, name, (time, tension)) in enumerate(lines):
+        ax.plot(time, np.asarray(tension, dtype=float) / 1e3, linewidth=1.1,
+                label=f"{label}: {name}" if several else label, **style(number))
         moving = np.flatnonzero(np.abs(np.diff(np.asarray(tension, dtype=float))) > 20.0)
         released = max(released, time[moving[-1]] if moving.size else 0.0)
-        drawn += 1
-    if drawn:
+    if lines:
         ax.set(xlabel="time since the start [s]", ylabel="largest tension [kN/m]", xlim=(0, 1.05 * released or None))
         ax.set_ylim(bottom=0.0)
         ax.grid(color="#dddddd", linewidth=0.6)
@@ -94,7 +105,7 @@ def draw_tension_history(sweep, results, path):
         ax.set_title(f"{sweep.title}: tension against time", loc="left", weight="bold")
         figure.savefig(path, dpi=110)
     plt.close(figure)
-    return drawn > 0
+    return bool(lines)
 
 
 def perimeter(frame, circumference):
@@ -138,32 +149,55 @@ def draw_tension_perimeter(sweep, shown, results, path):
 
 
 def draw_curves(sweep, results, path):
-    """Figures against the first changed key, where that is a number."""
-    key = sweep.columns[0] if sweep.columns else None
-    rows = [row for row in sweep.rows if isinstance(row.changed.get(key), (int, float))]
-    curves = [name for name in sweep.curves]
-    if len(rows) < 2 or not curves:
+    """Figures against a number, by default the first changed key: one line for each setting of the other keys, or of those
+    that `by` names. Of several runs with the same number the first is on the line, the others are hollow."""
+    rows = [{**row.changed, **figures(results[row.label], sweep.means)} for row in sweep.rows if results[row.label].completed]
+    first = sweep.columns[0] if sweep.columns else None
+    curves = [curve if isinstance(curve, dict) else {"figure": curve, "against": first} for curve in sweep.curves]
+    curves = [curve for curve in curves if sum(is_number(row.get(curve["against"])) for row in rows) > 1]
+    if not curves:
         return False
-    figure, axes = plt.subplots(1, len(curves), figsize=(3.6 * len(curves), 3.2), squeeze=False, layout="constrained")
-    others = list(dict.fromkeys(tuple((k, str(v)) for k, v in row.changed.items() if k != key) for row in rows))
-    for ax, name in zip(axes[0], curves):
-        label, factor = AXES.get(name, (name, 1.0))
-        for number, other in enumerate(others):
-            points = []
-            for row in rows:
-                if tuple((k, str(v)) for k, v in row.changed.items() if k != key) == other:
-                    value = figures(results[row.label]).get(name)
-                    points.append((row.changed[key], factor * value if isinstance(value, (int, float)) else np.nan))
-            points.sort()
-            ax.plot(*zip(*points), marker="o", markersize=4, **style(number),
-                    label=", ".join(f"{k.split('.')[-1]} {v}" for k, v in other) if len(others) > 1 else None)
-        ax.set(xlabel=key, ylabel=label)
+    keys = [key for key in (sweep.columns if sweep.by is None else sweep.by) if key not in {c["against"] for c in curves}]
+    groups = list(dict.fromkeys(tuple((key, str(row[key])) for key in keys if key in row) for row in rows))
+    columns = len(curves) if len(curves) < 5 else 3
+    lines = -(-len(curves) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(3.6 * columns, 3.2 * lines), squeeze=False, layout="constrained")
+    for ax in axes.flat[len(curves):]:
+        ax.set_visible(False)
+    for ax, curve in zip(axes.flat, curves):
+        label, factor = AXES.get(curve["figure"], (curve["figure"], 1.0))
+        across, across_factor = AXES.get(curve["against"], (curve["against"], 1.0))
+        for number, group in enumerate(groups):
+            own = [(across_factor * row[curve["against"]], factor * row[curve["figure"]]) for row in rows
+                   if tuple((key, str(row[key])) for key in keys if key in row) == group
+                   and is_number(row.get(curve["against"])) and is_number(row.get(curve["figure"]))]
+            line = sorted({x: (x, y) for x, y in reversed(own)}.values())
+            beside = [point for point in own if point not in line]
+            if line:
+                ax.plot(*zip(*line), marker="o", markersize=4, **style(number),
+                        label=group_label(group) if len(groups) > 1 else None)
+            if beside:
+                ax.plot(*zip(*beside), linestyle="", marker="o", markersize=6, fillstyle="none", color=style(number)["color"])
+        ax.set(xlabel=across, ylabel=label)
         ax.grid(color="#dddddd", linewidth=0.6)
-    if 1 < len(others) < 8:
+    if 1 < len(groups) < 8:
         axes[0][0].legend(fontsize=7)
     figure.savefig(path, dpi=110)
     plt.close(figure)
     return True
+
+
+def group_label(group):
+    return ", ".join(f"{key.split('.')[-1]} {value}" for key, value in group) or "as the scene"
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def flat(record):
+    """A slice: its pictures are sections. A record in space has none here."""
+    return int(record.frames[0].attrs.get("dimensions", 2)) == 2
 
 
 def draw(sweep, results, folder):
@@ -179,6 +213,7 @@ def draw(sweep, results, folder):
 
     shown = [(label, Kept(results[label].record)) for label in sweep.pictured if results[label].record]
     try:
+        shown = [(label, one) for label, one in shown if flat(one.record)]
         with plt.rc_context(pr.STYLE):
             keep("curves", "Figures against the changed key", draw_curves(sweep, results, path("curves")))
             if shown:

@@ -7,9 +7,13 @@ from dataclasses import dataclass, field
 
 import yaml
 
-KEYS = ("title", "question", "scene", "angles", "set", "stretch", "scale", "sweep", "rows", "expect", "pictures", "learned")
+from figures import COLUMNS
+
+KEYS = ("title", "question", "scene", "angles", "set", "follow", "stretch", "scale", "lift", "means", "sweep", "rows",
+        "expect", "pictures", "beside", "notes", "learned")
 ROW_KEYS = ("label", "effort")
 TRENDS = ("rising", "falling", "proportional", "same", "equals")
+EXPECTATION_KEYS = ("figure", "trend", "against", "rows", "where", "value", "relative", "absolute", "why")
 
 
 class BadSweep(Exception):
@@ -37,7 +41,11 @@ class Sweep:
     question: str = ""
     expect: list = field(default_factory=list)
     pictured: list = field(default_factory=list)  # labels
-    curves: list = field(default_factory=list)  # figures drawn against the first changed key
+    curves: list = field(default_factory=list)  # figures drawn against the first changed key, or {figure, against}
+    by: list | None = None  # keys that tell their lines apart; None: all that change
+    notes: str = ""  # Markdown for the page, before what was learned
+    beside: str | None = None  # a program that measures what no run of a scene does
+    means: dict = field(default_factory=dict)  # name -> start and end, s: of the tension's means
     learned: str = ""
     overrides: dict = field(default_factory=dict)  # --set
 
@@ -105,16 +113,26 @@ class _Reader:
         self.scene = self.file("scene", True)
         angles = self.file("angles", False)
         self.fixed = self.part("set", dict, "a map from dotted scene keys to values", {})
+        self.follow = self.part("follow", dict, "a map from a scene key to the changed key whose value it takes", {})
         self.stretch = self.part("stretch", dict, "a map from a name to a table of the scene", {})
         self.scale = self.part("scale", dict, "a map from a name to a table of the scene", {})
+        self.lift = self.part("lift", dict, "a map from a name to a list of points of the scene", {})
         rows = self.rows()
         sweep = Sweep(name, self.path, self.part("title", str, "text", name), self.scene, angles, rows,
                       question=self.part("question", str, "text", "").strip(),
-                      learned=self.part("learned", str, "text", "").strip(), overrides=self.overrides)
+                      learned=self.part("learned", str, "text", "").strip(), overrides=self.overrides,
+                      means=self.spans(), beside=self.file("beside", False), notes=self.part("notes", str, "text", "").strip())
         self.pictures(sweep)
-        sweep.expect = [self.expectation(sweep, i, item)
-                        for i, item in enumerate(self.part("expect", list, "a list", []))]
+        sweep.expect = [self.expectation(sweep, i, item) for i, item in enumerate(self.part("expect", list, "a list", []))
+                        if not (isinstance(item, dict) and self.left_out.intersection(item.get("rows", [])))]
         return sweep
+
+    def spans(self):
+        spans = self.part("means", dict, "a map from a name to a start and an end, s", {})
+        for name, span in spans.items():
+            if not (isinstance(span, list) and len(span) == 2 and all(isinstance(s, (int, float)) for s in span) and span[0] < span[1]):
+                self.refuse(f"means.{name}", span, "must be [start, end], s")
+        return spans
 
     def rows(self):
         lists = self.part("sweep", dict, "a map from keys to lists of values", {})
@@ -133,7 +151,9 @@ class _Reader:
         for label in labels:
             if labels.count(label) > 1:
                 self.refuse("rows", label, "two rows have this label; every row needs its own")
-        return rows
+        # A row that changes nothing but what --set has fixed is none of its own.
+        self.left_out = {row.label for row in rows if row.changed and set(row.changed) <= set(self.overrides)}
+        return [row for row in rows if row.label not in self.left_out] or rows[:1]
 
     def row(self, change):
         special = {key: change[key] for key in ROW_KEYS if key in change}
@@ -144,9 +164,14 @@ class _Reader:
                 overrides[self.stretch[key]] = self.multiplied(key, self.stretch[key], value, 1.0)
             elif key in self.scale:
                 overrides[self.scale[key]] = self.multiplied(key, self.scale[key], 1.0, value)
+            elif key in self.lift:
+                overrides[self.lift[key]] = self.lifted(key, self.lift[key], value)
             else:
                 overrides[key] = value
         overrides.update(self.overrides)
+        for key, source in self.follow.items():
+            if key not in changed and key not in self.overrides and source in overrides:
+                overrides[key] = overrides[source]
         effort = special.get("effort", 1.0)
         if not isinstance(effort, (int, float)) or effort <= 0:
             self.refuse("rows.effort", effort, "must be a number above 0")
@@ -158,36 +183,55 @@ class _Reader:
         for factor in (times, values):
             if not isinstance(factor, (int, float)) or factor <= 0:
                 self.refuse(name, factor, f"must be a number above 0, which multiplies the table {key}")
+        table = self.listed(name, key)
+        return [[round(row[0] * times, 9), *(round(value * values, 9) for value in row[1:])] for row in table]
+
+    def lifted(self, name, key, by):
+        """The scene's points [..., z], raised."""
+        if not isinstance(by, (int, float)):
+            self.refuse(name, by, f"must be a number, which is added to the z of {key}")
+        return [[*point[:-1], round(point[-1] + by, 9)] for point in self.listed(name, key)]
+
+    def listed(self, name, key):
+        """A list of lists in the scene."""
         with open(self.scene, encoding="utf-8") as file:
             table = yaml.safe_load(file)
         for part in key.split("."):
             table = table.get(part) if isinstance(table, dict) else None
         if not isinstance(table, list):
             self.refuse(name, key, f"{self.scene} has no such table")
-        return [[round(row[0] * times, 9), *(round(value * values, 9) for value in row[1:])] for row in table]
+        return table
 
     def pictures(self, sweep):
-        pictures = self.part("pictures", dict, "a map with the keys sections and curves", {})
+        pictures = self.part("pictures", dict, "a map with the keys sections, curves, by", {})
         for key in pictures:
-            if key not in ("sections", "curves"):
-                self.refuse(f"pictures.{key}", pictures[key], "unknown key; allowed: sections, curves")
+            if key not in ("sections", "curves", "by"):
+                self.refuse(f"pictures.{key}", pictures[key], "unknown key; allowed: sections, curves, by")
         labels = [row.label for row in sweep.rows]
-        sweep.pictured = [str(label) for label in pictures.get("sections") or []]
+        sweep.pictured = [str(label) for label in pictures.get("sections") or [] if str(label) not in self.left_out]
         for label in sweep.pictured:
             if label not in labels:
                 self.refuse("pictures.sections", label, f"no row has this label; there are: {'; '.join(labels)}")
-        sweep.curves = list(pictures.get("curves") or [])
+        sweep.curves, sweep.by = list(pictures.get("curves") or []), pictures.get("by")
+        for curve in sweep.curves:
+            if not isinstance(curve, str) and not (isinstance(curve, dict) and set(curve) == {"figure", "against"}):
+                self.refuse("pictures.curves", curve, "must be a column of the CSV, or a figure and what it is drawn against")
 
     def expectation(self, sweep, index, item):
         name = f"expect[{index}]"
         if not isinstance(item, dict) or "figure" not in item or item.get("trend") not in TRENDS:
             self.refuse(name, item, f"must have a figure and a trend of {', '.join(TRENDS)}")
         for key in item:
-            if key not in ("figure", "trend", "against", "where", "value", "relative", "absolute", "why"):
-                self.refuse(f"{name}.{key}", item[key],
-                            "unknown key; allowed: figure, trend, against, where, value, relative, absolute, why")
-        if item["trend"] in ("rising", "falling", "proportional") and item.get("against") not in sweep.columns:
-            self.refuse(f"{name}.against", item.get("against", ""), f"must be a changed key: {', '.join(sweep.columns)}")
+            if key not in EXPECTATION_KEYS:
+                self.refuse(f"{name}.{key}", item[key], f"unknown key; allowed: {', '.join(EXPECTATION_KEYS)}")
+        for label in item.get("rows", []):
+            if label not in [row.label for row in sweep.rows]:
+                self.refuse(f"{name}.rows", label, "no row has this label")
+        runs = item["trend"] != "proportional" and "rows" in item and "against" not in item  # in that order
+        if item["trend"] in ("rising", "falling", "proportional") and not runs and item.get("against") not in [
+                *sweep.columns, *COLUMNS]:
+            self.refuse(f"{name}.against", item.get("against", ""),
+                        f"must be a figure of the CSV or a changed key: {', '.join(sweep.columns)}")
         return item
 
 
