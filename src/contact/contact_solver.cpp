@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "approach.h"
+#include "mirror.h"
 
 namespace geocontainer_mpm::contact {
 namespace {
@@ -32,67 +33,6 @@ template <int Dim>
 Vec<Dim> vector_of(const typename mpm::Grid<Dim>::Node& node)
 {
   return node.matrix().template head<Dim>();
-}
-
-/// Whether a point reaches nodes on or beyond a face that mirrors.
-template <int Dim>
-bool is_near_mirror(const Vec<Dim>& point, const mpm::Grid<Dim>& grid)
-{
-  constexpr double reach_cells = 1.5;
-  for (int d = 0; d < Dim; ++d) {
-    const double at = (point[d] - grid.origin()[d]) * grid.inverse_dx();
-    const auto mirrors = [&](int side) {
-      return grid.faces()[static_cast<std::size_t>(2 * d + side)] != mpm::FaceCondition::free;
-    };
-    if ((mirrors(0) && at < grid.low_face(d) + reach_cells) || (mirrors(1) && at > grid.high_face(d) - reach_cells))
-      return true;
-  }
-  return false;
-}
-
-/// A node, and what of a vector there each direction keeps.
-template <int Dim>
-struct Image {
-  std::array<int, Dim> node;
-  Vec<Dim> sign = Vec<Dim>::Ones();
-};
-
-/// Where a node stands whose image may be inside.
-template <int Dim>
-Image<Dim> image_of(std::uint32_t storage_index, const mpm::Grid<Dim>& grid)
-{
-  Image<Dim> image;
-  std::size_t rest = storage_index;
-  for (int d = Dim - 1; d >= 0; --d) {
-    const auto slot = static_cast<std::size_t>(d), count = static_cast<std::size_t>(grid.counts()[slot]);
-    image.node[slot] = static_cast<int>(rest % count);
-    rest /= count;
-  }
-  for (int d = 0; d < Dim; ++d)
-    for (int side = 0; side < 2; ++side) {
-      const mpm::FaceCondition condition = grid.faces()[static_cast<std::size_t>(2 * d + side)];
-      if (condition == mpm::FaceCondition::free)
-        continue;
-      const int face = side == 0 ? grid.low_face(d) : grid.high_face(d), outwards = side == 0 ? -1 : 1;
-      int& at = image.node[static_cast<std::size_t>(d)];
-      const int beyond = outwards * (at - face);
-      at = beyond > 0 ? 2 * face - at : at;
-      for (int c = 0; c < Dim; ++c) {
-        const bool held = condition == mpm::FaceCondition::fixed || c == d;
-        if (held && beyond >= 0)
-          image.sign[c] *= beyond > 0 ? -1.0 : 0.0;
-      }
-    }
-  return image;
-}
-
-template <int Dim>
-Vec<Dim> place(const mpm::Particles<Dim>& particles, std::size_t p)
-{
-  Vec<Dim> x;
-  for (std::size_t d = 0; d < Dim; ++d)
-    x[static_cast<Eigen::Index>(d)] = particles.position[d][p];
-  return x;
 }
 
 /// Half the width of a particle: of a square or a cube of its volume, m.
@@ -212,7 +152,7 @@ void ContactSolver<Dim>::collect(std::uint32_t index, const BoundaryBody<Dim>& b
   const mpm::Particles<Dim>& particles = *points.particles;
   const double reach = search_cells * grid.dx();
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec<Dim> point = place(particles, p);
+    const Vec<Dim> point = particles.position_of(p);
     if (!body.may_touch(point, reach + widest))
       continue;
     const Nearest<Dim> surface = body.nearest(point);

@@ -244,12 +244,12 @@ struct GeotextileDescription {
   /// In space, length of cloth in a closed end over that of the flat end, both ways, less 1, >= 0; not given: as around
   /// the section, as if the end were gathered from the tube.
   std::optional<double> end_slack;
-  double mass_kg_per_m2 = 0.0;                                      ///< true mass: what gravity pulls, > 0
-  double computational_mass_kg_per_m2 = 0.0;                        ///< inertia used (mass scaling), >= true mass
-  double strength_n_per_m = 0.0;                                    ///< tensile strength of the sheet (warp), > 0
-  double seam_efficiency = 0.85;                                    ///< strength of a seam over the sheet's, (0, 1]
-  double segment_length_m = 0.0;  ///< wanted length of a membrane segment, > 0; about a cell
-  double gauge_length_m = 0.5;    ///< reported tension is the mean over this length, >= segment length
+  double mass_kg_per_m2 = 0.0;                ///< true mass: what gravity pulls, > 0
+  double computational_mass_kg_per_m2 = 0.0;  ///< inertia used (mass scaling), >= true mass
+  double strength_n_per_m = 0.0;              ///< tensile strength of the sheet (warp), > 0
+  double seam_efficiency = 0.85;              ///< strength of a seam over the sheet's, (0, 1]
+  double segment_length_m = 0.0;              ///< wanted length of a membrane segment, > 0; about a cell
+  double gauge_length_m = 0.5;                ///< reported tension is the mean over this length, >= segment length
   geotextile::Formulation formulation = geotextile::Formulation::segments;
   std::vector<geotextile::ForceStrainRow> force_strain_table;  ///< from (0, 0), ascending; empty: linear, J
   std::optional<double> rupture_strain;               ///< from which on a piece carries nothing, > 0; not given: never
