@@ -174,7 +174,7 @@ Nearest<Dim> BoundaryBody<Dim>::nearest(const Vec<Dim>& point) const
     result.normal = start_.turn(result.normal);
     return result;
   } else {
-    const Nearest<3> nowhere{ std::numeric_limits<double>::infinity(), Vec<3>::Zero() };
+    Nearest<3> nowhere{ std::numeric_limits<double>::infinity(), Vec<3>::Zero() };
     const Vec2 in_reference = start_.invert(in_section(point));
     if (free_side_ != 0.0) {
       const double distance = free_side_ * (point[0] - reference_lower_[0]);

@@ -132,13 +132,12 @@ Probes<Dim>::Probes(const SceneDescription& scene, Model<Dim>& model) : cell_siz
       series.kind = "geotextile";
       target.index = index_of(model.sheets(), probe.geotextile->geotextile);
       const mpm::Particles<Dim>& nodes = model.sheets()[target.index].sheet.nodes();
-      const auto distance = [&](std::size_t i) {
-        return (nodes.position_of(i) - in_space<Dim>(*probe.geotextile->at_m)).norm();
-      };
-      if (probe.geotextile->at_m)
+      if (probe.geotextile->at_m) {
+        const Vec<Dim> at = in_space<Dim>(*probe.geotextile->at_m);
         for (std::size_t i = 1; i < nodes.size(); ++i)
-          if (distance(i) < distance(target.node))
+          if ((nodes.position_of(i) - at).norm() < (nodes.position_of(target.node) - at).norm())
             target.node = i;
+      }
     } else if (probe.surface) {
       series.kind = "surface";
       target.index = boundary_index(model, *probe.surface);

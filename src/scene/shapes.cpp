@@ -41,7 +41,7 @@ std::vector<Vec2> hopper_outline(double area, const HullDescription& hull)
   if (!wall.empty())
     half.push_back(wall.front());
   for (std::size_t k = 0; k + 1 < wall.size(); ++k) {
-    const Vec2 a = wall[k], b = wall[k + 1];
+    const Vec2 &a = wall[k], &b = wall[k + 1];
     const double height = b[1] - a[1];
     if (!(height > 0.0))
       break;                                     // the hopper closes again: nothing can be filled above

@@ -351,7 +351,7 @@ TEST(MembraneBound, IsAboveItsLargestFrequencyAndCloseToIt)
     least = std::min(least, ratio);
     most = std::max(most, ratio);
     RC_ASSERT(ratio >= 1.0 - 1e-9);  // round-off of the dense solve
-    RC_ASSERT(ratio <= 2.2);  // 1.98 was the largest of 3000
+    RC_ASSERT(ratio <= 2.2);         // 1.98 was the largest of 3000
   }));
   RecordProperty("least", std::to_string(least));
   RecordProperty("most", std::to_string(most));

@@ -47,7 +47,8 @@ const Broken space[] = {
   { &solid_scene, "hull.along_m=[3, -3]", "hull.along_m", "[3, -3]", "from below to" },
   { &solid_scene, "geotextiles.bag.seams={ top: { along: 0.5 } }", "geotextiles.bag.seams", "top",
     "plane strain alone" },
-  { &solid_scene, "water={ density_kg_per_m3: 1025, draught_m: 2, drag_coefficient: 1, added_mass_coefficient: 0.5 }", "water", "", "plane strain alone" },
+  { &solid_scene, "water={ density_kg_per_m3: 1025, draught_m: 2, drag_coefficient: 1, added_mass_coefficient: 0.5 }",
+    "water", "", "plane strain alone" },
   { &solid_scene, "numerics.shape=gimp", "numerics.shape", "gimp", "bspline2 or linear_simplex" },
 };
 INSTANTIATE_TEST_SUITE_P(Space, BrokenSpace, testing::ValuesIn(space));
