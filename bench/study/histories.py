@@ -28,14 +28,22 @@ def of_frame(frame):
 
 def transfer_share(path):
     """Until the middle of the fill leaves the hull, of all that was dissipated, the part that the transfer between particles
-    and grid took: what the discretisation resists the flow through the slot. None where it does not leave."""
+    and grid took: what the discretisation resists the flow through the slot. Between two frames linearly; None where the
+    middle does not leave."""
     record = pr.Record(path)
     try:
+        above = None  # of the frame before: height of the middle above the hull's lowest point, taken by the transfer, by all
         for height, frame in zip(record.height, record.frames):
-            if "hull" in frame and height < frame["hull/position"][:, 2].min():
-                energy = frame["energy"].attrs
-                unit = "j_per_m" if "dissipated_j_per_m" in energy else "j"  # a slice, or in space
-                return float(energy[f"dissipated_transfer_{unit}"] / energy[f"dissipated_{unit}"])
+            if "hull" not in frame:
+                return None
+            energy = frame["energy"].attrs
+            unit = "j_per_m" if "dissipated_j_per_m" in energy else "j"  # a slice, or in space
+            now = np.array([height - frame["hull/position"][:, 2].min(), energy[f"dissipated_transfer_{unit}"],
+                            energy[f"dissipated_{unit}"]])
+            if now[0] < 0.0 and above is not None:
+                _, transfer, everything = above + (now - above) * above[0] / (above[0] - now[0])
+                return float(transfer / everything)
+            above = now
         return None
     finally:
         record.file.close()
