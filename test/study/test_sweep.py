@@ -93,7 +93,7 @@ class Expectations(unittest.TestCase):
     def met(self, rows, **item):
         study = sweep.Sweep("x", "", "", "", None, [], expect=[item])
         rows = [{"status": "completed", "label": str(number), **row} for number, row in enumerate(rows)]
-        (_, verdict), = expectations.check(study, rows)
+        (_, _, verdict), = expectations.check(study, rows)
         return verdict
 
     def test_monotone(self):
@@ -122,6 +122,15 @@ class Expectations(unittest.TestCase):
         self.assertTrue(self.met(rows, figure="word", trend="equals", value="a"))
         self.assertFalse(self.met(rows, figure="word", trend="equals", value="a", where={"rho": 3.0}))
         self.assertTrue(self.met(rows, figure="t", trend="equals", value=2.1, relative=0.1, where={"rho": 1.0}))
+
+    def test_without_a_key_the_order_of_rows_counts(self):
+        rows = [{"label": "b", "t": 2.0}, {"label": "a", "t": 1.0}]
+        self.assertTrue(self.met(rows, figure="t", trend="rising", rows=["a", "b"]))
+        self.assertFalse(self.met(rows, figure="t", trend="rising", rows=["b", "a"]))
+
+    def test_a_run_that_was_not_made_leaves_it_open(self):
+        rows = [{"mu": 1, "t": 1.0}, {"mu": 2, "t": 2.0}, {"mu": 3, "t": None, "status": "not run"}]
+        self.assertIsNone(self.met(rows, figure="t", trend="rising", against="mu"))
 
     def test_stopped_runs_do_not_count(self):
         rows = [{"mu": 1, "t": 1.0}, {"mu": 2, "t": 2.0}, {"mu": 3, "t": 0.0, "status": "stopped"}]
