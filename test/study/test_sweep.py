@@ -90,10 +90,10 @@ rows: [{slower: 2}, {further: 0.5}]
 
 
 class Expectations(unittest.TestCase):
-    def met(self, rows, **item):
+    def met(self, runs, **item):
         study = sweep.Sweep("x", "", "", "", None, [], expect=[item])
-        rows = [{"status": "completed", "label": str(number), **row} for number, row in enumerate(rows)]
-        (_, _, verdict), = expectations.check(study, rows)
+        runs = [{"status": "completed", "label": str(number), **row} for number, row in enumerate(runs)]
+        (_, _, verdict), = expectations.check(study, runs)
         return verdict
 
     def test_monotone(self):
