@@ -153,8 +153,9 @@ def panels(chosen, width, height):
     """Axes for the chosen instants, three in a row, for a view of that width and height."""
     columns = min(3, len(chosen))
     rows = -(-len(chosen) // columns)
-    panel = 3.5
-    height = np.clip(panel * height / width, 1.8, 6.5)
+    tallest = 6.5
+    panel = np.clip(tallest * width / height, 2.4, 3.5)  # a narrow view, half a section, makes narrow panels
+    height = np.clip(panel * height / width, 1.8, tallest)
     figure, axes = plt.subplots(rows, columns, figsize=(columns * panel + 0.4, rows * (height + 0.7) + 1.5), sharex=True,
                                 sharey=True, squeeze=False, layout="constrained")
     for ax in axes.flat[len(chosen):]:

@@ -53,8 +53,7 @@ Image<Dim> image_of(std::uint32_t storage_index, const mpm::Grid<Dim>& grid)
       const int beyond = outwards * (at - face);
       at = beyond > 0 ? 2 * face - at : at;
       for (int c = 0; c < Dim; ++c) {
-        const bool held = condition == mpm::FaceCondition::fixed || c == d;
-        if (held && beyond >= 0)
+        if (mpm::mirror_sign(condition, c, d) < 0.0 && beyond >= 0)
           image.sign[c] *= beyond > 0 ? -1.0 : 0.0;
       }
     }

@@ -55,12 +55,6 @@ bool window_touches(const Grid<Dim>& grid, int d, int side)
   return side == 0 ? grid.window().begin[d] <= grid.low_face(d) : grid.window().end[d] > grid.high_face(d);
 }
 
-/// Sign with which component `c` is mirrored at a face normal to `d`.
-inline double mirror_sign(FaceCondition condition, int c, int d)
-{
-  return condition == FaceCondition::fixed || c == d ? -1.0 : 1.0;
-}
-
 /// Calls `visit(d, side, condition)` for every face that constrains and that the window reaches.
 template <int Dim, class Visitor>
 void visit_conditions(const Grid<Dim>& grid, Visitor&& visit)

@@ -94,9 +94,16 @@ ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& de
   parameters.computational_mass = description.computational_mass_kg_per_m2;
   parameters.gauge_length = description.gauge_length_m;
   parameters.rupture_strain = description.rupture_strain;
-  geotextile::Membrane laid(
-      geotextile::wrap(section, { quarter ? 0.0 : along[0], along[1] }, closed, description.segment_length_m, fullness),
-      parameters);
+  const auto wrapped = [&] {
+    try {
+      return geotextile::wrap(section, { quarter ? 0.0 : along[0], along[1] }, closed, description.segment_length_m,
+                              fullness);
+    } catch (const InputError& error) {  // which knows of no scene
+      throw InputError(scene.source, "geotextiles." + name, error.value(),
+                       fmt::format("its {} {}", error.key(), error.allowed()));
+    }
+  };
+  geotextile::Membrane laid(wrapped(), parameters);
   const double weft = description.strength_weft_n_per_m.value_or(description.strength_n_per_m);
   return { name, 0, std::move(laid), geotextile::Strength(description.strength_n_per_m, description.seam_efficiency),
            geotextile::Strength(weft, description.seam_efficiency) };

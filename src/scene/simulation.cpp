@@ -26,6 +26,16 @@ const char* to_string(Outcome outcome)
   return "none";
 }
 
+EnergyFrame EnergyFrame::times(double parts) const
+{
+  EnergyFrame result = *this;
+  for (double* energy : { &result.kinetic, &result.elastic, &result.potential, &result.dissipated,
+                          &result.dissipated_plastic, &result.dissipated_contact, &result.dissipated_transfer,
+                          &result.dissipated_water, &result.work_in, &result.unbalanced, &result.dissipated_rupture })
+    *energy *= parts;
+  return result;
+}
+
 std::string place(const Vec3& position_m, int dimensions)
 {
   const std::string section = fmt::format("y {:.3f} m, z {:.3f} m", position_m.y(), position_m.z());
@@ -84,6 +94,13 @@ void start_again(Run<Dim>& run)
   run.watch.observe(run.model, 0.0, {}, 0.0);
 }
 
+/// Of the whole.
+template <int Dim>
+EnergyFrame energy_of(const Run<Dim>& run)
+{
+  return run.model.energy().times(run.scene.parts());
+}
+
 template <int Dim>
 StatusFrame status_of(const Run<Dim>& run)
 {
@@ -121,7 +138,7 @@ Frame frame_of(const Run<Dim>& run)
   frame.step = run.progress.steps;
   frame.dt_s = run.progress.dt_s;
   frame.opening = run.angles_at(run.progress.time_s);
-  frame.energy = run.model.energy();
+  frame.energy = energy_of(run);
   frame.status = status_of(run);
   frame.probes = run.probes.of_frame();
   if (run.scene.water)
@@ -191,7 +208,7 @@ StatusFrame Simulation::status() const
 
 EnergyFrame Simulation::energy() const
 {
-  return state_->with([](const auto& run) { return run.model.energy(); });
+  return state_->with([](const auto& run) { return energy_of(run); });
 }
 
 std::optional<WaterFrame> Simulation::water() const

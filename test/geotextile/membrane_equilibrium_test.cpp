@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "../mpm/random_cloud.h"
+#include "fixture.h"
 #include "geocontainer_mpm/geotextile/membrane.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
 #include "geocontainer_mpm/mpm/reach.h"
@@ -15,11 +15,6 @@
 namespace geocontainer_mpm::geotextile::testing {
 namespace {
 
-using mpm::testing::Chance;
-using mpm::testing::set_vector;
-using mpm::testing::vector_at;
-
-constexpr double pi = 3.14159265358979323846;
 constexpr double stiffness = 1e5;
 
 SheetLayout circle(double radius, int corners = 2880)

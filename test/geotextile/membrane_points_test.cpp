@@ -4,19 +4,12 @@
 
 #include <numeric>
 
-#include "../mpm/random_cloud.h"
+#include "fixture.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
 
 namespace geocontainer_mpm::geotextile::testing {
 namespace {
 
-using mpm::testing::apart;
-using mpm::testing::Chance;
-using mpm::testing::holds;
-using mpm::testing::set_vector;
-using mpm::testing::vector_at;
-
-constexpr double pi = 3.14159265358979323846;
 constexpr double stiffness = 1e5;
 
 SheetParameters parameters(double length, double segment)

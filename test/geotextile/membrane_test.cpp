@@ -8,19 +8,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "../mpm/random_cloud.h"
+#include "fixture.h"
 #include "geocontainer_mpm/error.h"
 
 namespace geocontainer_mpm::geotextile::testing {
 namespace {
-
-using mpm::testing::apart;
-using mpm::testing::Chance;
-using mpm::testing::holds;
-using mpm::testing::set_vector;
-using mpm::testing::vector_at;
-
-constexpr double pi = 3.14159265358979323846;
 
 MembraneParameters parameters()
 {

@@ -9,16 +9,11 @@
 #include <map>
 #include <set>
 
-#include "../mpm/random_cloud.h"
+#include "fixture.h"
 #include "geocontainer_mpm/error.h"
 
 namespace geocontainer_mpm::geotextile::testing {
 namespace {
-
-using mpm::testing::Chance;
-using mpm::testing::holds;
-
-constexpr double pi = 3.14159265358979323846;
 
 SheetLayout ellipse(double half_width, double half_height, int corners = 720)
 {

@@ -8,18 +8,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "../mpm/random_cloud.h"
+#include "fixture.h"
 
 namespace geocontainer_mpm::geotextile::testing {
 namespace {
 
-using mpm::testing::apart;
-using mpm::testing::Chance;
-using mpm::testing::holds;
-using mpm::testing::set_vector;
-using mpm::testing::vector_at;
-
-constexpr double pi = 3.14159265358979323846;
 constexpr double radius = 2.0;
 constexpr double stiffness = 1.1e6;
 

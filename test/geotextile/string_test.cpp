@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "../mpm/random_cloud.h"
+#include "fixture.h"
 #include "geocontainer_mpm/contact/contact_solver.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
 
 namespace geocontainer_mpm::geotextile::testing {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 class EitherFormulation : public ::testing::TestWithParam<Formulation> {};
 INSTANTIATE_TEST_SUITE_P(Formulation, EitherFormulation,

@@ -39,13 +39,14 @@ surfaces:
 
 struct Result {
   StatusFrame status;
+  EnergyFrame energy;
   double force_z;  ///< largest of the bed in an output interval
 };
 
 Result fall(const std::string& text)
 {
   Simulation simulation(parse_scene(text, "bag.yaml"), 1);
-  Result result{ {}, 0.0 };
+  Result result{ {}, {}, 0.0 };
   EXPECT_EQ(run(simulation,
                 [&](const Simulation& now) {
                   result.force_z = std::max(result.force_z, -now.frame().boundary.front().force[2]);
@@ -53,6 +54,7 @@ Result fall(const std::string& text)
             Advance::finished)
       << simulation.failure().reason;
   result.status = simulation.status();
+  result.energy = simulation.energy();
   return result;
 }
 
@@ -90,6 +92,9 @@ TEST(Space, AQuarterIsAsGoodAsTheWhole)
   const Result half = fall(text("half")), quarter = fall(text("quarter"));
   expect_equal(half, whole, 2.0, 0.01);
   expect_equal(quarter, whole, 4.0, 0.01);
+  EXPECT_NEAR(half.energy.potential, whole.energy.potential, 0.01 * std::abs(whole.energy.potential));
+  EXPECT_NEAR(quarter.energy.potential, whole.energy.potential, 0.01 * std::abs(whole.energy.potential));
+  EXPECT_NEAR(quarter.energy.dissipated, whole.energy.dissipated, 0.01 * whole.energy.dissipated);
   EXPECT_NEAR(quarter.status.length_m, whole.status.length_m, 0.01 * whole.status.length_m);
   EXPECT_NEAR(quarter.status.soil_volume, whole.status.soil_volume, 0.01 * whole.status.soil_volume);
 }

@@ -19,6 +19,12 @@ namespace geocontainer_mpm::mpm {
 /// run). Roller: no motion through the face, none hindered along it. Fixed: no motion at all.
 enum class FaceCondition { free, roller, fixed };
 
+/// Sign with which component `c` is mirrored at a face normal to `d`.
+inline double mirror_sign(FaceCondition condition, int c, int d)
+{
+  return condition == FaceCondition::fixed || c == d ? -1.0 : 1.0;
+}
+
 /// Half-open box of node indices.
 template <int Dim>
 struct Window {

@@ -359,6 +359,8 @@ struct SceneDescription {
   /// 2 in plane strain, 3 in space.
   int dimensions() const { return space ? 3 : 2; }
   Symmetry symmetry() const { return space ? space->symmetry : Symmetry::none; }
+  /// How many times what is computed makes the whole.
+  double parts() const { return symmetry() == Symmetry::quarter ? 4.0 : symmetry() == Symmetry::half ? 2.0 : 1.0; }
 
   /// Gravity at an instant, from whichever of the two is given.
   Vec2 gravity_at(double time_s) const;

@@ -51,7 +51,7 @@ struct GeotextileFrame {
   std::vector<Vec3> node;             ///< m; of a line in order along it
   std::vector<Vec3> velocity;         ///< m/s
   std::vector<Triangle> triangles;    ///< seen from outside counter-clockwise
-  std::vector<double> tension;        ///< per piece, raw, N/m, >= 0; of a triangle the larger principal one
+  std::vector<double> tension;        ///< per piece, raw, N/m, >= 0; of a triangle the larger of warp and weft
   std::vector<double> gauge_tension;  ///< per piece, mean over the gauge length, N/m: what is reported and judged
   std::vector<double> warp_tension;   ///< per triangle, mean over the gauge length, along the warp, N/m; may be empty
   std::vector<double> weft_tension;   ///< the same along the weft
@@ -72,6 +72,9 @@ struct BoundaryFrame {
 
 /// Energies, J/m or J; see docs/concepts for the balance.
 struct EnergyFrame {
+  /// So many times as much: of the whole, from a part of it.
+  EnergyFrame times(double parts) const;
+
   double kinetic = 0.0;
   double elastic = 0.0;
   double potential = 0.0;   ///< gravity, zero at z = 0
