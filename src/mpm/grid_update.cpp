@@ -72,13 +72,13 @@ MotionSums<Dim> GridUpdate<Dim>::apply_forces(const Discretisation& discretisati
 {
   const bool touches = fold_faces(grid);
   const double keep = std::max(0.0, 1.0 - damping_per_s * kick);
-  const bool flip = discretisation.transfer == Transfer::flip;
-  if (flip)
+  const bool keeps_old = is_blended(discretisation.transfer);
+  if (keeps_old)
     grid.ensure_kept();
   MotionSums<Dim> total = discretisation.mass == MassMatrix::consistent ? update_consistent(grid, kick, keep, team)
-                          : flip                                        ? update_lumped<true>(grid, kick, keep, team)
+                          : keeps_old                                   ? update_lumped<true>(grid, kick, keep, team)
                                                                         : update_lumped<false>(grid, kick, keep, team);
-  if (flip)
+  if (keeps_old)
     mirror_beyond_faces(
         grid, [&](std::size_t i) -> auto& { return grid.kept()[i]; });
   total.touches_faces = touches;

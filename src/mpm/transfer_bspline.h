@@ -103,7 +103,7 @@ GEOCONTAINER_MPM_INLINE void gather_bspline(const Grid<Dim>& grid, double dt, do
                                             Particles<Dim>& particles, std::size_t p)
 {
   constexpr bool wants_velocity = what == Gather::all || what == Gather::motion || what == Gather::velocity;
-  constexpr bool wants_moment = wants_velocity && transfer == Transfer::apic;
+  constexpr bool wants_moment = wants_velocity && is_affine(transfer);
   constexpr bool wants_gradient = what == Gather::all || what == Gather::gradient;
   const Stencil<Dim> s = stencil_of<Dim, shape>(particles, p, grid);
   if constexpr (what == Gather::position) {
@@ -155,7 +155,7 @@ GEOCONTAINER_MPM_INLINE void gather_bspline(const Grid<Dim>& grid, double dt, do
       }
   }
 
-  if constexpr (wants_velocity && transfer == Transfer::flip)
+  if constexpr (wants_velocity && is_blended(transfer))
     blend<Dim>(velocity, kept_at(s, grid), flip_fraction, particles, p);
   else if constexpr (wants_velocity)
     for (std::size_t i = 0; i < Dim; ++i)

@@ -149,7 +149,7 @@ inline void move(Velocity velocity, double dt, Particles<Dim>& particles, std::s
       particles.position[i][p] += dt * velocity[i];
 }
 
-/// FLIP from the grid's velocities at the particle, now and before the forces.
+/// The blend of transfer.h from the grid's velocities at the particle, now and before the forces.
 template <int Dim>
 inline void blend(Quad now, ForceVector<Dim> before, double flip_fraction, Particles<Dim>& particles, std::size_t p)
 {

@@ -41,7 +41,7 @@ void TransferLoops<Dim, shape>::body(const Discretisation& discretisation, const
                                      const Strips& strips, const BodyTerms& terms, const Vec<Dim>& gravity,
                                      Grid<Dim>& grid, ThreadTeam& team)
 {
-  const bool affine = discretisation.transfer == Transfer::apic;
+  const bool affine = is_affine(discretisation.transfer);
   const auto scatter = [&](auto loops, const Extra& extra) { loops(particles, strips, gravity, extra, grid, team); };
   if (terms.part == Part::momentum) {
     scatter(affine ? scatter_strips<Dim, shape, Part::momentum, true, Push::nothing>
@@ -82,7 +82,7 @@ template <int Dim, Shape shape>
 void TransferLoops<Dim, shape>::sheet(const Discretisation& discretisation, const Particles<Dim>& nodes, Part part,
                                       const Vec<Dim>& gravity, Grid<Dim>& grid, bool stressed)
 {
-  const bool affine = discretisation.transfer == Transfer::apic;
+  const bool affine = is_affine(discretisation.transfer);
   const auto scatter = [&](auto loop) { loop(nodes, gravity, grid); };
   switch (part) {
     case Part::all:
@@ -119,24 +119,31 @@ template <int Dim, Shape shape>
 void TransferLoops<Dim, shape>::gather(const Discretisation& discretisation, const Grid<Dim>& grid, double dt,
                                        Gather what, Particles<Dim>& particles, std::size_t begin, std::size_t end)
 {
-  constexpr Transfer apic = Transfer::apic, flip = Transfer::flip;
-  const bool affine = discretisation.transfer == apic;
   const auto run = [&](auto loop) { loop(grid, dt, discretisation.flip_fraction, particles, begin, end); };
+  const auto run_velocity = [&](auto apic, auto flip, auto aflip) {
+    run(discretisation.transfer == Transfer::apic ? apic : discretisation.transfer == Transfer::flip ? flip : aflip);
+  };
   switch (what) {
     case Gather::all:
-      run(affine ? gather_range<Dim, shape, Gather::all, apic> : gather_range<Dim, shape, Gather::all, flip>);
+      run_velocity(gather_range<Dim, shape, Gather::all, Transfer::apic>,
+                   gather_range<Dim, shape, Gather::all, Transfer::flip>,
+                   gather_range<Dim, shape, Gather::all, Transfer::aflip>);
       break;
     case Gather::motion:
-      run(affine ? gather_range<Dim, shape, Gather::motion, apic> : gather_range<Dim, shape, Gather::motion, flip>);
+      run_velocity(gather_range<Dim, shape, Gather::motion, Transfer::apic>,
+                   gather_range<Dim, shape, Gather::motion, Transfer::flip>,
+                   gather_range<Dim, shape, Gather::motion, Transfer::aflip>);
       break;
     case Gather::velocity:
-      run(affine ? gather_range<Dim, shape, Gather::velocity, apic> : gather_range<Dim, shape, Gather::velocity, flip>);
+      run_velocity(gather_range<Dim, shape, Gather::velocity, Transfer::apic>,
+                   gather_range<Dim, shape, Gather::velocity, Transfer::flip>,
+                   gather_range<Dim, shape, Gather::velocity, Transfer::aflip>);
       break;
     case Gather::gradient:
-      run(gather_range<Dim, shape, Gather::gradient, apic>);
+      run(gather_range<Dim, shape, Gather::gradient, Transfer::apic>);
       break;
     case Gather::position:
-      run(gather_range<Dim, shape, Gather::position, apic>);
+      run(gather_range<Dim, shape, Gather::position, Transfer::apic>);
       break;
   }
 }

@@ -61,9 +61,9 @@ GEOCONTAINER_MPM_INLINE void gather_simplex(const Grid<Dim>& grid, double dt, do
                                             Particles<Dim>& particles, std::size_t p)
 {
   constexpr bool wants_velocity = what == Gather::all || what == Gather::motion || what == Gather::velocity;
-  constexpr bool wants_affine = wants_velocity && transfer == Transfer::apic;
+  constexpr bool wants_affine = wants_velocity && is_affine(transfer);
   constexpr bool wants_gradient = what == Gather::all || what == Gather::gradient;
-  constexpr bool wants_kept = what == Gather::position || (wants_velocity && transfer == Transfer::flip);
+  constexpr bool wants_kept = what == Gather::position || (wants_velocity && is_blended(transfer));
   const Simplex<Dim> s = simplex_around<Dim>(position_of(particles, p), grid);
   Quad velocity{};
   ForceVector<Dim> kept{};
@@ -81,7 +81,7 @@ GEOCONTAINER_MPM_INLINE void gather_simplex(const Grid<Dim>& grid, double dt, do
     move<Dim, what>(kept, dt, particles, p);
     return;
   }
-  if constexpr (wants_velocity && transfer == Transfer::flip)
+  if constexpr (wants_velocity && is_blended(transfer))
     blend<Dim>(velocity, kept, flip_fraction, particles, p);
   else if constexpr (wants_velocity)
     for (std::size_t i = 0; i < Dim; ++i)

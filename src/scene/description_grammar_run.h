@@ -64,13 +64,20 @@ void describe(V& v, NumericsDescription& n)
             "shape functions. `bspline2`: quadratic B-splines; `linear_simplex`: three-node triangles, two a cell, the "
             "founding paper's; `gimp`: linear ones averaged over the particle's box, which follows its stretch" },
           n.method.shape);
-  v.value({ "transfer", optional, "",
-            "between particles and grid. `apic`: affine, not with `linear_simplex`; `flip`: particles take the grid's "
-            "change of velocity" },
-          n.method.transfer);
+  v.value(
+      { "transfer", optional, "",
+        "between particles and grid. `apic`: affine, not with `linear_simplex`; `flip`: particles take the grid's "
+        "change of velocity; `aflip`: affine, and particles keep for `transfer_memory_s` what the grid does not see "
+        "of their velocity" },
+      n.method.transfer);
   v.value({ "flip_fraction", optional, "", "1: pure FLIP; 0: particles take the grid's velocity itself (PIC)",
             n.method.transfer == Transfer::flip, "transfer `flip`" },
           n.method.flip_fraction, closed(0.0, 1.0));
+  v.value({ "transfer_memory_s", optional, "s",
+            "time in which what the grid does not see of a particle's velocity falls by a factor e, however short the "
+            "steps",
+            n.method.transfer == Transfer::aflip, "transfer `aflip`" },
+          n.transfer_memory_s, positive());
   v.value(
       { "mass", optional, "",
         "mass matrix; `consistent` with transfer `flip` and where nothing touches or is held but by the grid's faces" },

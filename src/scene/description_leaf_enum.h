@@ -56,8 +56,9 @@ struct Words<mpm::Shape> {
 };
 template <>
 struct Words<mpm::Transfer> {
-  static constexpr std::array<std::pair<mpm::Transfer, const char*>, 2> list{ { { mpm::Transfer::apic, "apic" },
-                                                                                { mpm::Transfer::flip, "flip" } } };
+  static constexpr std::array<std::pair<mpm::Transfer, const char*>, 3> list{
+    { { mpm::Transfer::apic, "apic" }, { mpm::Transfer::flip, "flip" }, { mpm::Transfer::aflip, "aflip" } }
+  };
 };
 template <>
 struct Words<mpm::MassMatrix> {

@@ -114,6 +114,8 @@ StepStatus Model<Dim>::step(const StepInput& input)
 
   // Leapfrog: velocities live at mid-steps.
   const double kick = 0.5 * (now_.last_dt + input.dt_s), damping_before = damping_power();
+  if (method_.transfer == mpm::Transfer::aflip)
+    method_.flip_fraction = std::exp(-kick / transfer_memory_s_);
   if (method_.update == UpdateOrder::usf)
     stress_first(input.dt_s);
   apply_forces(input, kick);

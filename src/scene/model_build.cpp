@@ -68,6 +68,7 @@ template <int Dim>
 Model<Dim>::Model(const SceneDescription& scene, int threads)
     : team_(make_team(threads))
     , method_(scene.numerics.method)
+    , transfer_memory_s_(scene.numerics.transfer_memory_s)
     , constant_gravity_(in_space<Dim>(scene.gravity_table.empty() ? scene.gravity_m_per_s2 : Vec2(Vec2::Zero())))
     , gravity_table_(scene.gravity_table)
     , time_step_factor_(scene.numerics.time_step_factor)

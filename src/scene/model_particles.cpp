@@ -52,13 +52,19 @@ void set_velocity(const Vec2& velocity, double spin, const std::optional<Velocit
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vec2 x = in_section(particles.position_of(p));
     Vec2 v = velocity + spin * Vec2(middle[1] - x[1], x[0] - middle[0]);
-    if (wave)
-      v += wave->amplitude_m_per_s * std::sin(wave->wave_number_rad_per_m.dot(x) + wave->phase_rad);
-    particles.velocity[y][p] = v[0];
-    particles.velocity[z][p] = v[1];
-    if (!wave && spin != 0.0) {
-      particles.affine[y * Dim + z][p] = -spin;
-      particles.affine[z * Dim + y][p] = spin;
+    Mat2 gradient = Mat2::Zero();
+    if (spin != 0.0)
+      gradient << 0.0, -spin, spin, 0.0;
+    if (wave) {
+      const double phase = wave->wave_number_rad_per_m.dot(x) + wave->phase_rad;
+      v += wave->amplitude_m_per_s * std::sin(phase);
+      gradient += wave->amplitude_m_per_s * wave->wave_number_rad_per_m.transpose() * std::cos(phase);
+    }
+    const std::array<std::size_t, 2> axes{ y, z };
+    for (std::size_t i = 0; i < 2; ++i) {
+      particles.velocity[axes[i]][p] = v[static_cast<int>(i)];
+      for (std::size_t j = 0; j < 2; ++j)
+        particles.affine[axes[i] * Dim + axes[j]][p] = gradient(static_cast<int>(i), static_cast<int>(j));
     }
   }
 }

@@ -216,14 +216,19 @@ void Model<Dim>::gather_bodies(Gather what, double dt)
     });
 }
 
+/// With aflip a sheet is affine alone: its nodes are light, and what the grid does not see of their motion strains the
+/// segments between them.
 template <int Dim>
 void Model<Dim>::gather_sheets(Gather what, double dt)
 {
+  mpm::Discretisation method = method_;
+  if (method.transfer == mpm::Transfer::aflip)
+    method.transfer = mpm::Transfer::apic;
   for (ModelSheet& sheet : now_.sheets) {
     const bool strains = sheet.sheet.strains_with_grid();  // gradients are for who strains by them
     if (sheet.held || (what == Gather::gradient && !strains))
       continue;
-    mpm::grid_to_particles(method_, fields_[sheet.field].grid, dt,
+    mpm::grid_to_particles(method, fields_[sheet.field].grid, dt,
                            what == Gather::all && !strains ? Gather::motion : what, sheet.sheet.nodes(), 0,
                            sheet.sheet.nodes().size());
   }

@@ -151,8 +151,10 @@ TEST(VibratingBar, KeepsItsFrequencyWithEveryChoice)
   for (const Shape shape : { Shape::bspline2, Shape::linear_simplex })
     for (const UpdateOrder update : { UpdateOrder::usl, UpdateOrder::usf, UpdateOrder::musl })
       for (const Smoothing smoothing : { Smoothing::none, Smoothing::cell_average, Smoothing::nodal_mixed })
-        for (int transfer = 0; transfer < 3; ++transfer) {
-          Discretisation choice = choice_of(shape, transfer == 0 ? Transfer::apic : Transfer::flip);
+        for (int transfer = 0; transfer < 4; ++transfer) {
+          Discretisation choice = choice_of(shape, transfer == 0   ? Transfer::apic
+                                                   : transfer == 3 ? Transfer::aflip
+                                                                   : Transfer::flip);
           choice.update = update;
           choice.smoothing = smoothing;
           choice.mass = transfer == 2 ? MassMatrix::consistent : MassMatrix::lumped;

@@ -119,7 +119,7 @@ Vec<Dim> velocity_at(Shape shape, const Grid<Dim>& grid, const Vec<Dim>& x, cons
 
 inline Transfer any_transfer(Chance& chance)
 {
-  return chance.whole(0, 1) == 0 ? Transfer::apic : Transfer::flip;
+  return static_cast<Transfer>(chance.whole(0, 2));
 }
 
 /// A cloud on every sort of place, faces and grid lines included.

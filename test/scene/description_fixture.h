@@ -277,6 +277,7 @@ grid:
   lower_m: [-4, -6]
   upper_m: [4, 1]
   faces: { y_min: free, y_max: free, z_min: fixed, z_max: free }
+numerics: { transfer: aflip, transfer_memory_s: 0.004 }
 space: { along_m: [-4, 4], x_min: free, x_max: fixed, symmetry: quarter }
 materials:
   sand: { law: linear_elastic, density_kg_per_m3: 1990, young_modulus_pa: 3.0e6, poisson_ratio: 0.3 }

@@ -20,8 +20,21 @@ constexpr Shape shape_of_points(Shape shape)
 /// apic: affine (Jiang et al. 2015); a scene may not take it with linear_simplex, whose nodes at the edge of the
 /// material have next to no mass: the affine matrix there is the element's velocity gradient, keeps what those nodes
 /// do, and gains energy. flip: the grid's change of velocity, blended with its velocity by `flip_fraction` (Brackbill
-/// and Ruppel 1986; Stomakhin et al. 2013).
-enum class Transfer { apic, flip };
+/// and Ruppel 1986; Stomakhin et al. 2013). aflip: both, affine and blended (Fei, Guo, Wu, Huang and Gao 2021, ACM TOG
+/// 40:109). What the grid does not see of a velocity, apic takes at every step, however short.
+enum class Transfer { apic, flip, aflip };
+
+/// Does a particle's velocity come with an affine matrix?
+constexpr bool is_affine(Transfer transfer)
+{
+  return transfer != Transfer::flip;
+}
+
+/// Does a particle keep a part of what the grid does not see of its velocity?
+constexpr bool is_blended(Transfer transfer)
+{
+  return transfer != Transfer::apic;
+}
 
 /// consistent: the full mass matrix of the particles, solved by conjugate gradients (Burgess, Sulsky and Brackbill
 /// 1992); with flip only.
@@ -39,7 +52,7 @@ enum class Smoothing { none, cell_average, nodal_mixed };
 struct Discretisation {
   Shape shape = Shape::bspline2;
   Transfer transfer = Transfer::apic;
-  double flip_fraction = 1.0;  ///< 1: pure FLIP, 0: pure PIC, [0, 1]
+  double flip_fraction = 1.0;  ///< 1: pure FLIP, 0: pure PIC (with aflip: apic), [0, 1]
   MassMatrix mass = MassMatrix::lumped;
   UpdateOrder update = UpdateOrder::usl;
   Smoothing smoothing = Smoothing::none;

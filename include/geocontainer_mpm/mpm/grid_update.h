@@ -11,7 +11,7 @@
 namespace geocontainer_mpm::mpm {
 
 /// Sums over the nodes of the window, in an order that does not depend on the number of threads. Kinetic energy is the
-/// grid's, p . v / 2 with v = M^-1 p: with FLIP the particles hold more of it than the grid sees, so that what the
+/// grid's, p . v / 2 with v = M^-1 p: where the transfer is blended the particles hold more of it than the grid sees, so that what the
 /// ledger of transfers takes from one step's end to the next one's start can be negative for a step. Contact and faces
 /// book with lumped masses whatever the matrix.
 template <int Dim>
@@ -32,7 +32,7 @@ public:
   /// Mirrors what was scattered beyond roller and fixed faces back inside, so that the face is a plane of
   /// (anti)symmetry, then v = (v_old + M^-1 kick f) * max(0, 1 - damping * kick) with M v_old = p at every node of the
   /// window. `kick`: time between the mid-steps, s (leapfrog: half of the last step plus half of this one).
-  /// With FLIP the grid keeps v_old, under the same face conditions. A consistent mass must have been assembled.
+  /// For a blended transfer the grid keeps v_old, under the same face conditions. A consistent mass must have been assembled.
   MotionSums<Dim> apply_forces(const Discretisation& discretisation, Grid<Dim>& grid, double kick, double damping_per_s,
                                ThreadTeam& team);
 

@@ -67,8 +67,8 @@ void sheet_to_grid(const Discretisation& discretisation, const Particles<Dim>& n
                    const Vec<Dim>& gravity, Grid<Dim>& grid, bool stressed = false);
 
 /// Rows [begin, end) from the grid's velocities; positions move by dt times the grid's velocity at the particle.
-/// FLIP: v <- f (v + sum w (v_new - v_old)) + (1 - f) sum w v_new with f the flip_fraction (Stomakhin et al. 2013),
-/// v_old as kept by GridUpdate::apply_forces; it leaves the affine matrix alone.
+/// FLIP and AFLIP: v <- f (v + sum w (v_new - v_old)) + (1 - f) sum w v_new with f the flip_fraction (Stomakhin et al.
+/// 2013), v_old as kept by GridUpdate::apply_forces. FLIP leaves the affine matrix alone, AFLIP takes it from the grid.
 template <int Dim>
 void grid_to_particles(const Discretisation& discretisation, const Grid<Dim>& grid, double dt, Gather what,
                        Particles<Dim>& particles, std::size_t begin, std::size_t end);

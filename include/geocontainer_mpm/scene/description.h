@@ -54,11 +54,12 @@ struct SpaceDescription {
 };
 
 struct NumericsDescription {
-  mpm::Discretisation method;      ///< shape, transfer, flip_fraction, mass, update, smoothing
-  double time_step_factor = 0.8;   ///< fraction of the stability bound that a step may use, (0, 1]
-  double max_step_s = 0.01;        ///< upper bound of a step, s, > 0
-  double max_travel_cells = 0.25;  ///< furthest a particle may move in a step, cells, (0, 0.5]
-  double damping_per_s = 0.0;      ///< mass-proportional damping of the live run, 1/s, >= 0; 0 for physics
+  mpm::Discretisation method;        ///< shape, transfer, flip_fraction, mass, update, smoothing
+  double transfer_memory_s = 0.005;  ///< how long aflip remembers what the grid does not see, s, > 0
+  double time_step_factor = 0.8;     ///< fraction of the stability bound that a step may use, (0, 1]
+  double max_step_s = 0.01;          ///< upper bound of a step, s, > 0
+  double max_travel_cells = 0.25;    ///< furthest a particle may move in a step, cells, (0, 0.5]
+  double damping_per_s = 0.0;        ///< mass-proportional damping of the live run, 1/s, >= 0; 0 for physics
   /// No steps while nothing moves; not given: in a scene with a hull.
   std::optional<bool> skip_resting;
   double rest_velocity_m_per_s = 2e-3;  ///< root-mean-square velocity below which a body counts as resting, m/s, > 0

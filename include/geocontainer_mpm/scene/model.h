@@ -311,6 +311,7 @@ private:
 
   std::shared_ptr<mpm::ThreadTeam> team_;  ///< shared by copies of the model: one steps at a time
   mpm::Discretisation method_;
+  double transfer_memory_s_;
   Vec<Dim> constant_gravity_;
   TimeTable<2> gravity_table_;
   std::vector<GeotextileDescription> sheet_descriptions_;  ///< in the order of the sheets
