@@ -30,7 +30,10 @@ std::string numerics_text(Chance& c, bool skip_resting, Touching touching)
   const bool simplex = c.one_in(2.5), flip = simplex || c.one_in(2.5);
   std::string text = "numerics:\n";
   text += fmt::format("  shape: {}\n", simplex ? "linear_simplex" : "bspline2");
-  text += fmt::format("  transfer: {}\n", flip ? "flip" : "apic");
+  const bool remembers = !flip && c.one_in(2.5);
+  text += fmt::format("  transfer: {}\n", flip ? "flip" : remembers ? "aflip" : "apic");
+  if (remembers)
+    text += fmt::format("  transfer_memory_s: {:.4g}\n", c.over_decades(1e-4, 0.1));
   if (flip)
     text += fmt::format("  flip_fraction: {}\n", c.any_of({ 1.0, 0.99, 0.9, 0.0 }));
   if (flip && c.one_in(5) && touching == Touching::no)
