@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH="/usr/bin:/bin:/usr/sbin:/sbin:$PATH"
 
 # Debian 12 (bookworm) packages.
-core_packages=(build-essential cmake ninja-build pkg-config
+core_packages=(build-essential ccache cmake ninja-build pkg-config
   libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libyaml-cpp-dev nlohmann-json3-dev
   libgtest-dev librapidcheck-dev python3-h5py python3-matplotlib python3-numpy
   python3-tqdm python3-yaml)
@@ -65,6 +65,9 @@ need_ros() {
   fi
 }
 
+# The core is compiled for itself and for ROS with the same flags: ccache makes it once. What it keeps stays in the checkout.
+export CCACHE_DIR="${CCACHE_DIR:-$PWD/.ccache}" CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1
+
 # configure FOLDER [CMake option...]
 configure() {
   local folder=$1 generator=()
@@ -73,7 +76,8 @@ configure() {
   say "Configuring $folder: $*"
   # The same options as the presets of CMakePresets.json, for CMake older than presets.
   cmake -S . -B "$folder" "${generator[@]}" \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >"$folder.log" 2>&1 ||
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@" >"$folder.log" 2>&1 ||
     { cat "$folder.log" >&2; fail "CMake could not configure $folder"; }
   mv "$folder.log" "$folder/configure.log"
 }
