@@ -79,8 +79,6 @@ void check_left_out(const SceneDescription& scene)
       refuse(key + ".formulation", to_text(sheet.formulation), "must be segments in a scene with `space`");
     if (sheet.wrinkles)
       refuse(key + ".wrinkles", "", allowed);
-    if (!sheet.seams.empty())
-      refuse(key + ".seams", names_in(sheet.seams), allowed);
   }
   for (const auto& [name, probe] : scene.probes)
     if (probe.section || probe.geotextile)

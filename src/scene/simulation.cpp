@@ -36,15 +36,6 @@ EnergyFrame EnergyFrame::times(double parts) const
   return result;
 }
 
-WaterFrame WaterFrame::times(double parts) const
-{
-  WaterFrame result = *this;
-  for (double* sum : { &result.buoyancy, &result.submerged_weight, &result.dissipated })
-    *sum *= parts;
-  result.drag_impulse *= parts;
-  return result;
-}
-
 std::string place(const Vec3& position_m, int dimensions)
 {
   const std::string section = fmt::format("y {:.3f} m, z {:.3f} m", position_m.y(), position_m.z());
@@ -222,9 +213,14 @@ EnergyFrame Simulation::energy() const
 
 std::optional<WaterFrame> Simulation::water() const
 {
-  return state_->with([](const auto& run) {
+  return state_->with([](const auto& run) {  // of the whole
     std::optional<WaterFrame> frame = run.model.water();
-    return frame ? frame->times(run.scene.parts()) : frame;
+    if (frame) {
+      for (double* sum : { &frame->buoyancy, &frame->submerged_weight, &frame->dissipated })
+        *sum *= run.scene.parts();
+      frame->drag_impulse *= run.scene.parts();
+    }
+    return frame;
   });
 }
 

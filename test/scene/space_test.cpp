@@ -34,6 +34,24 @@ TEST(Space, AQuarterIsAsGoodAsTheWhole)
   EXPECT_NEAR(quarter.status.soil_volume, whole.status.soil_volume, 0.01 * whole.status.soil_volume);
 }
 
+TEST(Space, ASeamAlongTheBargeIsAPointOfTheSection)
+{
+  // Near the bag's lower corner on starboard, which half a model has as its image on port.
+  const auto text = [](const std::string& space, const std::string& along) {
+    return changed(falling_bag(0.2, space, along, 0.3), "strength_n_per_m: 1.0e5,",
+                   "strength_n_per_m: 1.0e5, seams: { low: { at_m: [-0.6, 0.1], efficiency: 0.2 } },");
+  };
+  const Result plane = fall(text("", ""));
+  ASSERT_GT(plane.status.peak_utilisation_seam, plane.status.peak_utilisation_sheet);
+  ASSERT_LT(plane.status.peak_utilisation_seam, 4.9 * plane.status.peak_utilisation_sheet) << "not where it is tensest";
+  for (const char* symmetry : { "none", "half" }) {
+    const Result space =
+        fall(text(fmt::format("space: {{ along_m: [0, 0.2], symmetry: {} }}", symmetry), "along_m: [0, 0.2],"));
+    EXPECT_NEAR(space.status.peak_utilisation_seam, plane.status.peak_utilisation_seam,
+                0.01 * plane.status.peak_utilisation_seam);
+  }
+}
+
 TEST(Space, AnUnevenOpeningStopsHalfAModel)
 {
   Simulation simulation(parse_scene(solid_scene, "solid.yaml", { "bodies.fill.initial_stress=k0" }), 1);

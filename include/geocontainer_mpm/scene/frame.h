@@ -91,9 +91,6 @@ struct EnergyFrame {
 
 /// What the water does to the bodies.
 struct WaterFrame {
-  /// So many times as much: of the whole, from a part of it.
-  WaterFrame times(double parts) const;
-
   double level_m = 0.0;               ///< z of the surface
   double submerged_share = 0.0;       ///< of the bodies' volume, now
   double buoyancy = 0.0;              ///< now, N/m or N
