@@ -38,6 +38,8 @@ void drop_inner(std::vector<Vec2>& points)
 /// Corners of the convex hull against the clock, by monotone chains (Andrew 1979).
 std::vector<Vec2> convex_hull(std::vector<Vec2> points)
 {
+  if (points.size() < 2)
+    return points;
   if (points.size() > 16)
     drop_inner(points);
   std::sort(points.begin(), points.end(),

@@ -39,11 +39,11 @@ TEST(Space, ASeamAlongTheBargeIsAPointOfTheSection)
   // Near the bag's lower corner on starboard, which half a model has as its image on port.
   const auto text = [](const std::string& space, const std::string& along) {
     return changed(falling_bag(0.2, space, along, 0.3), "strength_n_per_m: 1.0e5,",
-                   "strength_n_per_m: 1.0e5, seams: { low: { at_m: [-0.6, 0.1], efficiency: 0.2 } },");
+                   "strength_n_per_m: 1.0e5, seams: { low: { at_m: [-0.6, 0.1], efficiency: 0.1 } },");
   };
   const Result plane = fall(text("", ""));
   ASSERT_GT(plane.status.peak_utilisation_seam, plane.status.peak_utilisation_sheet);
-  ASSERT_LT(plane.status.peak_utilisation_seam, 4.9 * plane.status.peak_utilisation_sheet) << "not where it is tensest";
+  ASSERT_LT(plane.status.peak_utilisation_seam, 9.9 * plane.status.peak_utilisation_sheet) << "not where it is tensest";
   for (const char* symmetry : { "none", "half" }) {
     const Result space =
         fall(text(fmt::format("space: {{ along_m: [0, 0.2], symmetry: {} }}", symmetry), "along_m: [0, 0.2],"));
