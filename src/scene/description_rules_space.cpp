@@ -56,14 +56,11 @@ void check_left_out(const SceneDescription& scene)
       refuse(section, names_in(map), allowed);
   };
   refuse_any(scene.tractions, "tractions");
+  refuse_any(scene.contacts, "contacts");
   if (scene.numerics.method.shape == mpm::Shape::gimp)
     refuse("numerics.shape", "gimp", "must be bspline2 or linear_simplex in a scene with `space`");
-  const std::vector<std::string> fields = scene.velocity_fields();
-  if (fields.size() > 1)
-    for (const std::string& field : fields)
-      if (!scene.is_container(field))
-        refuse("bodies", names_in(scene.bodies),
-               "must share one velocity_field in a scene with `space`, or have a field and a geotextile each");
+  if (scene.velocity_fields().size() > 1)
+    refuse("bodies", names_in(scene.bodies), "must share one velocity_field in a scene with `space`");
   for (const auto& [name, body] : scene.bodies) {
     const std::string key = "bodies." + name;
     if (body.manufactured)

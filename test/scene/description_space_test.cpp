@@ -71,18 +71,6 @@ TEST(Space, TheSameKeysAreRightWhereTheyBelong)
   EXPECT_EQ(parse_scene(solid_scene, "").dimensions(), 3);
   EXPECT_EQ(parse_scene(small_scene, "").dimensions(), 2);
   EXPECT_NO_THROW(parse_scene(solid_scene, "", { "space.symmetry=none", "bodies.fill.along_m=[-2, 3]" }));
-  const std::string bare =
-      "  bare: { material: sand, velocity_field: other, along_m: [-1, 1],\n"
-      "          shape: { box: { lower_m: [-1, -5.4], upper_m: [1, -5] } } }\n";
-  const std::string two = changed(changed(solid_scene, "geotextiles:\n", bare + "geotextiles:\n"), "",
-                                  "contacts: { both: { between: [other, common], friction: 0.3 } }\n");
-  EXPECT_THROW(parse_scene(two, ""), InputError) << "one of the two is no container";
-  EXPECT_NO_THROW(parse_scene(changed(two, "  bag:\n",
-                                      "  cover: { encloses: bare, stiffness_n_per_m: 1.0e6, mass_kg_per_m2: 1,\n"
-                                      "           computational_mass_kg_per_m2: 20, strength_n_per_m: 1.0e5,\n"
-                                      "           segment_length_m: 0.2 }\n"
-                                      "  bag:\n"),
-                              ""));
   EXPECT_NO_THROW(parse_scene(solid_scene, "", { "probes={ push: { surface: hull_bulkhead_fore_port } }" }));
 }
 
