@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "approach.h"
+#include "impulse.h"
 #include "mirror.h"
 
 namespace geocontainer_mpm::contact {
@@ -35,45 +36,7 @@ Vec<Dim> vector_of(const typename mpm::Grid<Dim>::Node& node)
   return node.matrix().template head<Dim>();
 }
 
-/// Half the width of a particle: of a square or a cube of its volume, m.
-template <int Dim>
-double half_width(double volume)
-{
-  return 0.5 * (Dim == 2 ? std::sqrt(volume) : std::cbrt(volume));
-}
-
-/// The part of a vector along the surface.
-template <int Dim>
-Drag<Dim> along_surface(const Vec<Dim>& v, const Vec<Dim>& normal)
-{
-  if constexpr (Dim == 2)
-    return Drag<2>(v.dot(left_normal(normal)));
-  else
-    return v - v.dot(normal) * normal;
-}
-
-/// Nearest drag that friction can give.
-template <int Dim>
-Drag<Dim> within(const Drag<Dim>& drag, double limit)
-{
-  if constexpr (Dim == 2) {
-    return Drag<2>(std::clamp(drag[0], -limit, limit));
-  } else {
-    const double size = drag.norm();
-    return size > limit ? Drag<Dim>(limit / size * drag) : drag;
-  }
-}
-
 }  // namespace
-
-template <int Dim>
-Vec<Dim> ContactSolver<Dim>::impulse_of(const Load& load, const Vec<Dim>& normal)
-{
-  if constexpr (Dim == 2)
-    return load.pressed * normal + load.dragged[0] * left_normal(normal);
-  else
-    return load.pressed * normal + load.dragged;
-}
 
 template <int Dim>
 template <class Reach>
@@ -171,7 +134,7 @@ void ContactSolver<Dim>::collect(std::uint32_t index, const BoundaryBody<Dim>& b
     contact.memory = memory + particles.id[p];
     contact.load = memory_[contact.memory];
     if constexpr (Dim == 3)  // the surface may have turned since
-      contact.load.dragged = along_surface(contact.load.dragged, contact.normal);
+      contact.load.dragged = along_surface<Dim>(contact.load.dragged, contact.normal);
     contacts_.push_back(contact);
   }
 }
@@ -274,9 +237,10 @@ double ContactSolver<Dim>::relax(Contact& contact, mpm::Grid<Dim>& grid) const
   const Load before = contact.load;
   Load& load = contact.load;
   load.pressed = std::max(0.0, before.pressed + (contact.approach - slip.dot(contact.normal)) / along_normal);
-  load.dragged =
-      within<Dim>(before.dragged - along_surface(slip, contact.normal) / compliance, contact.friction * load.pressed);
-  const Vec<Dim> impulse = impulse_of({ load.pressed - before.pressed, load.dragged - before.dragged }, contact.normal);
+  load.dragged = within<Dim>(before.dragged - along_surface<Dim>(slip, contact.normal) / compliance,
+                             contact.friction * load.pressed);
+  const Vec<Dim> impulse =
+      impulse_of<Dim>(load.pressed - before.pressed, load.dragged - before.dragged, contact.normal);
   if ((impulse.array() == 0.0).all())
     return 0.0;
   push(contact.handle, impulse, grid);
@@ -306,7 +270,7 @@ void ContactSolver<Dim>::guess(mpm::Grid<Dim>& grid)
   remember_untouched(grid);
   for (const Contact& c : contacts_)
     if (c.load.pressed > 0.0)
-      push(c.handle, impulse_of(c.load, c.normal), grid);
+      push(c.handle, impulse_of<Dim>(c.load.pressed, c.load.dragged, c.normal), grid);
   for (const Hold& hold : holds_)
     push(hold.handle, hold.impulse, grid);
 }
@@ -336,7 +300,7 @@ void ContactSolver<Dim>::report(const std::vector<BoundaryBody<Dim>>& bodies, Co
       continue;
     memory_[c.memory] = c.load;
     remembered_.push_back(c.memory);
-    const Vec<Dim> impulse = impulse_of(c.load, c.normal);
+    const Vec<Dim> impulse = impulse_of<Dim>(c.load.pressed, c.load.dragged, c.normal);
     const Vec2 arm = bodies[c.body].arm_at(c.point), across = in_section(impulse);
     BoundaryImpulse<Dim>& boundary = impulses.boundary[c.body];
     boundary.impulse += impulse;

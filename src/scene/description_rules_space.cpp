@@ -57,8 +57,6 @@ void check_left_out(const SceneDescription& scene)
   };
   refuse_any(scene.tractions, "tractions");
   refuse_any(scene.contacts, "contacts");
-  if (scene.water)
-    refuse("water", "", allowed);
   if (scene.numerics.method.shape == mpm::Shape::gimp)
     refuse("numerics.shape", "gimp", "must be bspline2 or linear_simplex in a scene with `space`");
   if (scene.velocity_fields().size() > 1)
@@ -76,12 +74,8 @@ void check_left_out(const SceneDescription& scene)
       refuse(key, "", "must enclose a body in a scene with `space`");
     if (sheet.formulation != geotextile::Formulation::segments)
       refuse(key + ".formulation", to_text(sheet.formulation), "must be segments in a scene with `space`");
-    if (sheet.interface != SheetInterface::bonded)
-      refuse(key + ".interface", to_text(sheet.interface), "must be bonded in a scene with `space`");
     if (sheet.wrinkles)
       refuse(key + ".wrinkles", "", allowed);
-    if (!sheet.seams.empty())
-      refuse(key + ".seams", names_in(sheet.seams), allowed);
   }
   for (const auto& [name, probe] : scene.probes)
     if (probe.section || probe.geotextile)

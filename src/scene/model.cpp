@@ -223,11 +223,9 @@ void Model<Dim>::solve_contact(const StepInput& input, double kick)
                               { &fields_[pair.b].grid, &fields_[pair.b].all_points }, pair.friction, kick, input.dt_s));
   for (std::size_t f = 0; f < fields_.size(); ++f)
     collect_anchors(input, f);
-  if constexpr (Dim == 2) {
-    if (!sheet_pairs_.empty()) {
-      solve_sheet_contact(input, kick);
-      return;
-    }
+  if (!sheet_pairs_.empty()) {
+    solve_sheet_contact(input, kick);
+    return;
   }
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     Field& field = fields_[f];
@@ -310,7 +308,7 @@ void Model<Dim>::hold(bool held)
 {
   for (contact::ContactSolver<Dim>& contact : now_.contact)
     contact.hold(held);
-  for (contact::SheetContact& contact : now_.sheet_contact)
+  for (contact::SheetContact<Dim>& contact : now_.sheet_contact)
     contact.hold(held);
 }
 

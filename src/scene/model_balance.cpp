@@ -124,9 +124,8 @@ double Model<Dim>::potential_energy() const
   for (const Body& body : now_.bodies) {
     for (std::size_t p = 0; p < body.particles.size(); ++p)
       energy -= body.own_mass(p) * constant_gravity_.dot(body.position(p));
-    if constexpr (Dim == 2)
-      if (water_)
-        energy += water_->potential(body.particles, body.particle_height);
+    if (water_)
+      energy += water_->potential(body.particles, body.particle_height);
   }
   for (const ModelSheet& sheet : now_.sheets) {
     const mpm::Particles<Dim>& nodes = sheet.sheet.nodes();

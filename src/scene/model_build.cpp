@@ -78,7 +78,7 @@ Model<Dim>::Model(const SceneDescription& scene, int threads)
     , upper_(upper_corner<Dim>(scene))
 {
   if (scene.water)
-    water_.emplace(*scene.water, scene.water_level_m(), -scene.gravity_m_per_s2[1]);
+    water_.emplace(*scene.water, scene.water_level_m(), -scene.gravity_m_per_s2[1], scene.symmetry());
   build_fields(scene);
   build_bodies(scene);
   build_sheets(scene);
@@ -157,11 +157,10 @@ void Model<Dim>::build_bodies(const SceneDescription& scene)
       set_hydrostatic<Dim>(material, shape, scene.gravity_at(0.0)[1], water_, particles);
     else if (description.initial_stress != InitialStress::none)
       set_k0_stress<Dim>(description, body.density, shape, scene.gravity_at(0.0)[1], water_, particles);
-    if constexpr (Dim == 2)
-      if (water_) {
-        body.particle_height = mean_width<Dim>(particles);
-        water_->place(body.density, body.particle_height, particles);
-      }
+    if (water_) {
+      body.particle_height = mean_width<Dim>(particles);
+      water_->place(body.density, body.particle_height, particles);
+    }
     body.law->initialise(particles.batch(), 0, particles.size());
     now_.bodies.push_back(std::move(body));
   }

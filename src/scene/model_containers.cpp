@@ -13,9 +13,13 @@ namespace {
 /// Instants closer than this are one, s.
 constexpr double same_instant_s = 1e-9;
 
-contact::ClosedSheet closed_sheet(const ModelSheet<2>& sheet)
+contact::ClosedSheet<2> closed_sheet(const ModelSheet<2>& sheet)
 {
-  return { &sheet.sheet.nodes(), sheet.sheet.outwards() };
+  return { &sheet.sheet.nodes(), sheet.sheet.outwards(), nullptr };
+}
+contact::ClosedSheet<3> closed_sheet(const ModelSheet<3>& sheet)
+{
+  return { &sheet.sheet.nodes(), 1.0, &sheet.sheet.triangles() };
 }
 
 }  // namespace
@@ -93,50 +97,48 @@ bool Model<Dim>::takes_part(const SheetPair& pair) const
 template <int Dim>
 void Model<Dim>::solve_sheet_contact(const StepInput& input, double kick)
 {
-  if constexpr (Dim == 2) {
-    std::vector<contact::ContactSums<Dim>> sums(fields_.size());
-    for (std::size_t f = 0; f < fields_.size(); ++f)
-      now_.contact[f].begin(boundaries_, fields_[f].points, fields_[f].anchors, input.dt_s, fields_[f].grid, sums[f]);
-    std::vector<std::size_t> active;
-    for (std::size_t k = 0; k < sheet_pairs_.size(); ++k) {
-      const SheetPair& pair = sheet_pairs_[k];
-      if (!takes_part(pair)) {
-        ++now_.skipped.contact_searches;
-        continue;
-      }
-      contact::SheetContact& contact = now_.sheet_contact[k];
-      contact.begin(points_of(pair), fields_[pair.point_field].grid, closed_sheet(now_.sheets[pair.sheet]),
-                    fields_[pair.sheet_field].grid, input.dt_s);
-      if (contact.empty())
-        continue;
-      active.push_back(k);
-      std::vector<std::uint32_t> of_points, of_sheet;
-      contact.add_nodes(of_points, of_sheet);
-      now_.contact[pair.point_field].also_touches(of_points);
-      now_.contact[pair.sheet_field].also_touches(of_sheet);
+  std::vector<contact::ContactSums<Dim>> sums(fields_.size());
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    now_.contact[f].begin(boundaries_, fields_[f].points, fields_[f].anchors, input.dt_s, fields_[f].grid, sums[f]);
+  std::vector<std::size_t> active;
+  for (std::size_t k = 0; k < sheet_pairs_.size(); ++k) {
+    const SheetPair& pair = sheet_pairs_[k];
+    if (!takes_part(pair)) {
+      ++now_.skipped.contact_searches;
+      continue;
     }
-    for (std::size_t f = 0; f < fields_.size(); ++f)
-      now_.contact[f].guess(fields_[f].grid);
+    contact::SheetContact<Dim>& contact = now_.sheet_contact[k];
+    contact.begin(points_of(pair), fields_[pair.point_field].grid, closed_sheet(now_.sheets[pair.sheet]),
+                  fields_[pair.sheet_field].grid, input.dt_s);
+    if (contact.empty())
+      continue;
+    active.push_back(k);
+    std::vector<std::uint32_t> of_points, of_sheet;
+    contact.add_nodes(of_points, of_sheet);
+    now_.contact[pair.point_field].also_touches(of_points);
+    now_.contact[pair.sheet_field].also_touches(of_sheet);
+  }
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    now_.contact[f].guess(fields_[f].grid);
+  for (const std::size_t k : active)
+    now_.sheet_contact[k].guess(fields_[sheet_pairs_[k].point_field].grid, fields_[sheet_pairs_[k].sheet_field].grid);
+
+  double change = 1.0;
+  for (int number = 0; number < contact::most_sweeps && change > contact::velocity_tolerance; ++number) {
+    change = 0.0;
     for (const std::size_t k : active)
-      now_.sheet_contact[k].guess(fields_[sheet_pairs_[k].point_field].grid, fields_[sheet_pairs_[k].sheet_field].grid);
+      change = std::max(change, now_.sheet_contact[k].sweep(number, fields_[sheet_pairs_[k].point_field].grid,
+                                                            fields_[sheet_pairs_[k].sheet_field].grid));
+    for (std::size_t f = 0; f < fields_.size(); ++f)
+      change = std::max(change, now_.contact[f].sweep(number, fields_[f].grid));
+  }
 
-    double change = 1.0;
-    for (int number = 0; number < contact::most_sweeps && change > contact::velocity_tolerance; ++number) {
-      change = 0.0;
-      for (const std::size_t k : active)
-        change = std::max(change, now_.sheet_contact[k].sweep(number, fields_[sheet_pairs_[k].point_field].grid,
-                                                              fields_[sheet_pairs_[k].sheet_field].grid));
-      for (std::size_t f = 0; f < fields_.size(); ++f)
-        change = std::max(change, now_.contact[f].sweep(number, fields_[f].grid));
-    }
-
-    for (std::size_t k = 0; k < sheet_pairs_.size(); ++k)
-      now_.sheet_contact[k].end();
-    for (std::size_t f = 0; f < fields_.size(); ++f) {
-      now_.contact[f].end(boundaries_, kick, fields_[f].grid, fields_[f].impulses, sums[f]);
-      take(sums[f]);
-      take_impulses(fields_[f]);
-    }
+  for (std::size_t k = 0; k < sheet_pairs_.size(); ++k)
+    now_.sheet_contact[k].end();
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    now_.contact[f].end(boundaries_, kick, fields_[f].grid, fields_[f].impulses, sums[f]);
+    take(sums[f]);
+    take_impulses(fields_[f]);
   }
 }
 

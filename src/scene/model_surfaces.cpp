@@ -1,6 +1,8 @@
 #include "model_surfaces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -33,6 +35,50 @@ geotextile::Strength strength_of(const GeotextileDescription& description, const
                                   ? std::min(n - 1, static_cast<std::size_t>(*seam.along * static_cast<double>(n)))
                                   : nearest_segment(sheet, *seam.at_m);
     seams.push_back({ name, place, seam.efficiency.value_or(description.seam_efficiency) });
+  }
+  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
+}
+
+/// A place on a closed line, by the part of its length that lies before it.
+Vec2 place_along(const std::vector<Vec2>& line, double part)
+{
+  const auto side = [&line](std::size_t i) { return Vec2(line[(i + 1) % line.size()] - line[i]); };
+  double left = 0.0;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    left += part * side(i).norm();
+  std::size_t i = 0;
+  for (; i + 1 < line.size() && left > side(i).norm(); ++i)
+    left -= side(i).norm();
+  return line[i] + std::min(1.0, left / side(i).norm()) * side(i);
+}
+
+/// Middle of the side of the section from which a triangle of the wall is extruded.
+Vec2 side_of(const geotextile::TriangleMesh& mesh, const geotextile::Triangle& t)
+{
+  const Vec2 a = in_section(mesh.points[t[0]]), b = in_section(mesh.points[t[1]]), c = in_section(mesh.points[t[2]]);
+  return 0.5 * (a + ((b - a).squaredNorm() > (c - a).squaredNorm() ? b : c));
+}
+
+/// Seams along the barge: of each all pieces of the wall that are extruded from one side of the section.
+/// `outline`: of all of it.
+geotextile::Strength strength_of(const GeotextileDescription& description, const std::vector<Vec2>& outline,
+                                 const geotextile::TriangleMesh& mesh, Symmetry symmetry)
+{
+  std::vector<geotextile::Seam> seams;
+  for (const auto& [name, seam] : description.seams) {
+    Vec2 at = seam.along ? place_along(outline, *seam.along) : *seam.at_m;
+    if (symmetry != Symmetry::none)
+      at[0] = std::abs(at[0]);  // its image is as tense
+    const auto distance = [&](std::size_t t) {
+      return mesh.panel[t] == geotextile::Panel::wall ? (side_of(mesh, mesh.triangles[t]) - at).norm()
+                                                      : std::numeric_limits<double>::infinity();
+    };
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      nearest = std::min(nearest, distance(t));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (distance(t) <= nearest * (1.0 + 1e-9))
+        seams.push_back({ name, t, seam.efficiency.value_or(description.seam_efficiency) });
   }
   return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
 }
@@ -76,6 +122,7 @@ ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& de
   geotextile::Fullness fullness;
   fullness.around = unstretched_length(description, section) / section.cloth_length();
   fullness.ends = description.end_slack ? 1.0 + *description.end_slack : fullness.around;
+  const std::vector<Vec2> outline = section.points;
   if (scene.symmetry() != Symmetry::none)
     section = { port_arc(section.points), false, {} };
   const Vec2& along = *scene.bodies.at(description.encloses).along_m;
@@ -103,9 +150,10 @@ ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& de
                        fmt::format("its {} {}", error.key(), error.allowed()));
     }
   };
-  geotextile::Membrane laid(wrapped(), parameters);
+  const geotextile::TriangleMesh mesh = wrapped();
+  geotextile::Membrane laid(mesh, parameters);
   const double weft = description.strength_weft_n_per_m.value_or(description.strength_n_per_m);
-  return { name, 0, std::move(laid), geotextile::Strength(description.strength_n_per_m, description.seam_efficiency),
+  return { name, 0, std::move(laid), strength_of(description, outline, mesh, scene.symmetry()),
            geotextile::Strength(weft, description.seam_efficiency) };
 }
 

@@ -27,37 +27,38 @@ void Model<Dim>::weigh()
 template <int Dim>
 void Model<Dim>::load_water()
 {
-  if constexpr (Dim == 2) {
-    if (!water_)
-      return;
-    now_.water.drag = Vec<Dim>::Zero();
-    slowed_power_ = 0.0;
-    for (std::size_t b = 0; b < now_.bodies.size(); ++b) {
-      Body& body = now_.bodies[b];
-      const Water::Uptake uptake = water_->immerse(body.density, body.particle_height, body.particles);
-      now_.ledger.water += uptake.left_behind;
-      now_.kinetic -= uptake.left_behind;
-      slowed_power_ += now_.gravity.dot(uptake.slowed);
-      const std::size_t sheet = sheet_around(b);
-      Water::Drag drag;
-      if (sheet < now_.sheets.size()) {
-        mpm::Particles<Dim>& nodes = now_.sheets[sheet].sheet.nodes();
-        drag = water_->resist(nodes, 0.0, body.particle_height, body.particles);
-        now_.water.on_sheets.resize(now_.sheets.size());
+  if (!water_)
+    return;
+  now_.water.drag = Vec<Dim>::Zero();
+  slowed_power_ = 0.0;
+  for (std::size_t b = 0; b < now_.bodies.size(); ++b) {
+    Body& body = now_.bodies[b];
+    const Water::Uptake<Dim> uptake = water_->immerse(body.density, body.particle_height, body.particles);
+    now_.ledger.water += uptake.left_behind;
+    now_.kinetic -= uptake.left_behind;
+    slowed_power_ += now_.gravity.dot(uptake.slowed);
+    const std::size_t sheet = sheet_around(b);
+    Water::Drag<Dim> drag;
+    if (sheet < now_.sheets.size()) {
+      mpm::Particles<Dim>& nodes = now_.sheets[sheet].sheet.nodes();
+      drag = water_->resist(nodes, 0.0, body.particle_height, body.particles);
+      now_.water.on_sheets.resize(now_.sheets.size());
+      if constexpr (Dim == 2)
         water_->press(drag, nodes, now_.water.on_sheets[sheet]);
-        for (std::size_t d = 0; d < 2; ++d)
-          for (std::size_t i = 0; i < nodes.size(); ++i)
-            nodes.force[d][i] += now_.water.on_sheets[sheet][d][i];
-      } else {
-        drag = water_->resist(body.particles, body.particle_height, body.particle_height, body.particles);
-        water_->spread(drag, body.particle_height, body.particles);
-      }
-      now_.water.drag += drag.force;
-      now_.water.fastest_fall = std::max(now_.water.fastest_fall, -drag.velocity[1]);
+      else
+        water_->press(drag, nodes, now_.sheets[sheet].sheet.triangles(), now_.water.on_sheets[sheet]);
+      for (std::size_t d = 0; d < Dim; ++d)
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          nodes.force[d][i] += now_.water.on_sheets[sheet][d][i];
+    } else {
+      drag = water_->resist(body.particles, body.particle_height, body.particle_height, body.particles);
+      water_->spread(drag, body.particle_height, body.particles);
     }
-    load_sum_ += now_.water.drag;
-    weigh();
+    now_.water.drag += drag.force;
+    now_.water.fastest_fall = std::max(now_.water.fastest_fall, -drag.velocity[z_axis<Dim>]);
   }
+  load_sum_ += now_.water.drag;
+  weigh();
 }
 
 /// Index of the sheet around a body; of a bare one the number of sheets.

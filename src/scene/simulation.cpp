@@ -213,7 +213,15 @@ EnergyFrame Simulation::energy() const
 
 std::optional<WaterFrame> Simulation::water() const
 {
-  return state_->with([](const auto& run) { return run.model.water(); });
+  return state_->with([](const auto& run) {  // of the whole
+    std::optional<WaterFrame> frame = run.model.water();
+    if (frame) {
+      for (double* sum : { &frame->buoyancy, &frame->submerged_weight, &frame->dissipated })
+        *sum *= run.scene.parts();
+      frame->drag_impulse *= run.scene.parts();
+    }
+    return frame;
+  });
 }
 
 RunCounters Simulation::counters() const

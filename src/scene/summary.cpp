@@ -277,8 +277,9 @@ std::string summary_json(const Simulation& simulation, double wall_time_s, int t
   summary["energy"] = energy(simulation.energy(), status.dimensions);
   summary["water"] = water(simulation.water(), status.dimensions);
   const std::optional<WaterFrame> in_water = simulation.water();
-  summary["flags"] =
-      doubts(status, simulation.energy(), in_water ? in_water->submerged_weight : weight_in_air_n_per_m(scene));
+  const double length = status.dimensions == 3 ? status.length_m : 1.0;
+  summary["flags"] = doubts(status, simulation.energy(),
+                            in_water ? in_water->submerged_weight / length : weight_in_air_n_per_m(scene));
   summary["design_rules"] = design_view(simulation, status);
   summary["momentum_error"] = counters.momentum_error;
   summary["particles"] = counters.particles;

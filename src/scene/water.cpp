@@ -1,18 +1,16 @@
 #include "geocontainer_mpm/scene/water.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+
+#include "geocontainer_mpm/scene/shadow.h"
 
 namespace geocontainer_mpm::scene {
 namespace {
 
-Vec2 velocity(const mpm::Particles<2>& particles, std::size_t p)
-{
-  return { particles.velocity[0][p], particles.velocity[1][p] };
-}
-
 /// Extent along a direction, m.
-double extent(const mpm::Particles<2>& particles, const Vec2& along)
+double extent_along(const mpm::Particles<2>& particles, const Vec2& along)
 {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -23,14 +21,25 @@ double extent(const mpm::Particles<2>& particles, const Vec2& along)
   return high - low;
 }
 
+/// What is seen of a surface from ahead: width, m, or area, m^2. `margin`: how much wider it is than its points.
+double seen(const mpm::Particles<2>& surface, double margin, const Vec2& ahead, Symmetry)
+{
+  return extent_along(surface, Vec2(-ahead[1], ahead[0])) + margin;
+}
+double seen(const mpm::Particles<3>& surface, double margin, const Vec3& ahead, Symmetry symmetry)
+{
+  return shadow_area(surface.position, margin, ahead, symmetry);
+}
+
 }  // namespace
 
-Water::Water(const WaterDescription& description, double level_m, double gravity)
+Water::Water(const WaterDescription& description, double level_m, double gravity, Symmetry symmetry)
     : density_(description.density_kg_per_m3)
     , level_(level_m)
     , gravity_(gravity)
     , drag_(description.drag_coefficient)
     , added_(description.added_mass_coefficient)
+    , symmetry_(symmetry)
 {
 }
 
@@ -51,43 +60,46 @@ double Water::overburden(double soil_density, double z, double top) const
   return std::max(0.0, soil_density * soil - density_ * water);
 }
 
-double Water::potential(const mpm::Particles<2>& particles, double height) const
+template <int Dim>
+double Water::potential(const mpm::Particles<Dim>& particles, double height) const
 {
   double sum = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p)
-    sum += particles.initial_volume[p] * depth(particles.position[1][p], height);
+    sum += particles.initial_volume[p] * depth(particles.position[z_axis<Dim>][p], height);
   return density_ * gravity_ * sum;
 }
 
-void Water::place(double soil_density, double height, mpm::Particles<2>& particles) const
+template <int Dim>
+void Water::place(double soil_density, double height, mpm::Particles<Dim>& particles) const
 {
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double displaced = density_ * submerged(particles.position[1][p], height),
+    const double displaced = density_ * submerged(particles.position[z_axis<Dim>][p], height),
                  volume = particles.initial_volume[p];
     particles.weight_mass[p] = (soil_density - displaced) * volume;
     particles.mass[p] = (soil_density + added_ * displaced) * volume;
   }
 }
 
-Water::Uptake Water::immerse(double soil_density, double height, mpm::Particles<2>& particles) const
+template <int Dim>
+Water::Uptake<Dim> Water::immerse(double soil_density, double height, mpm::Particles<Dim>& particles) const
 {
-  Uptake uptake;
+  Uptake<Dim> uptake;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double displaced = density_ * submerged(particles.position[1][p], height),
+    const double displaced = density_ * submerged(particles.position[z_axis<Dim>][p], height),
                  volume = particles.initial_volume[p];
     const double before = particles.mass[p], after = (soil_density + added_ * displaced) * volume;
     particles.weight_mass[p] = (soil_density - displaced) * volume;
     if (after == before)
       continue;
     particles.mass[p] = after;
-    const double energy = 0.5 * velocity(particles, p).squaredNorm();
+    const double energy = 0.5 * particles.velocity_of(p).squaredNorm();
     if (after < before) {
       uptake.left_behind += (before - after) * energy;
       continue;
     }
     const double keep = before / after;
     uptake.left_behind += before * (1.0 - keep) * energy;
-    uptake.slowed += particles.weight_mass[p] * (1.0 - keep) * velocity(particles, p);
+    uptake.slowed += particles.weight_mass[p] * (1.0 - keep) * particles.velocity_of(p);
     for (mpm::Column& column : particles.velocity)
       column[p] *= keep;
     for (mpm::Column& column : particles.affine)
@@ -96,29 +108,36 @@ Water::Uptake Water::immerse(double soil_density, double height, mpm::Particles<
   return uptake;
 }
 
-Water::Drag Water::resist(const mpm::Particles<2>& surface, double margin, double height,
-                          const mpm::Particles<2>& particles) const
+template <int Dim>
+Water::Drag<Dim> Water::resist(const mpm::Particles<Dim>& surface, double margin, double height,
+                               const mpm::Particles<Dim>& particles) const
 {
-  Drag drag;
+  Drag<Dim> drag;
   double volume = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double part = submerged(particles.position[1][p], height) * particles.initial_volume[p];
+    const double part = submerged(particles.position[z_axis<Dim>][p], height) * particles.initial_volume[p];
     volume += particles.initial_volume[p];
     drag.submerged_volume += part;
-    drag.velocity += part * velocity(particles, p);
+    drag.velocity += part * particles.velocity_of(p);
   }
   if (!(drag.submerged_volume > 0.0))
     return drag;
   drag.velocity /= drag.submerged_volume;
+  if constexpr (Dim == 3) {  // the other parts move the other way
+    if (symmetry_ != Symmetry::none)
+      drag.velocity[y_axis<3>] = 0.0;
+    if (symmetry_ == Symmetry::quarter)
+      drag.velocity[0] = 0.0;
+  }
   const double speed = drag.velocity.norm();
   if (drag_ > 0.0 && speed > 0.0) {
-    const double width = extent(surface, Vec2(-drag.velocity[1], drag.velocity[0]) / speed) + margin;
+    const double width = seen(surface, margin, drag.velocity / speed, symmetry_);
     drag.force = -0.5 * density_ * drag_ * width * (drag.submerged_volume / volume) * speed * drag.velocity;
   }
   return drag;
 }
 
-void Water::press(const Drag& drag, const mpm::Particles<2>& sheet, std::array<mpm::Column, 2>& forces) const
+void Water::press(const Drag<2>& drag, const mpm::Particles<2>& sheet, std::array<mpm::Column, 2>& forces) const
 {
   const std::size_t n = sheet.size();
   for (mpm::Column& column : forces)
@@ -144,14 +163,49 @@ void Water::press(const Drag& drag, const mpm::Particles<2>& sheet, std::array<m
   }
 }
 
-void Water::spread(const Drag& drag, double height, mpm::Particles<2>& particles) const
+void Water::press(const Drag<3>& drag, const mpm::Particles<3>& sheet,
+                  const std::vector<geotextile::Triangle>& triangles, std::array<mpm::Column, 3>& forces) const
 {
-  const Vec2 per_volume = drag.force == Vec2::Zero() ? drag.force : Vec2(drag.force / drag.submerged_volume);
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double part = submerged(particles.position[1][p], height) * particles.initial_volume[p];
-    particles.force[0][p] = part * per_volume[0];
-    particles.force[1][p] = part * per_volume[1];
+  for (mpm::Column& column : forces)
+    column.assign(sheet.size(), 0.0);
+  if (drag.force == Vec3::Zero())
+    return;
+  const auto facing = [&](const geotextile::Triangle& t) {  // twice its area seen from ahead
+    const Vec3 a = sheet.position_of(t[0]), b = sheet.position_of(t[1]), c = sheet.position_of(t[2]);
+    return std::max(0.0, (b - a).cross(c - a).dot(drag.velocity));
+  };
+  double all = 0.0;
+  for (const geotextile::Triangle& t : triangles)
+    all += facing(t);
+  for (const geotextile::Triangle& t : triangles) {
+    const double share = facing(t) / (3.0 * all);
+    for (const std::uint32_t node : t)
+      for (std::size_t d = 0; d < 3; ++d)
+        forces[d][node] += share * drag.force[static_cast<Eigen::Index>(d)];
   }
 }
+
+template <int Dim>
+void Water::spread(const Drag<Dim>& drag, double height, mpm::Particles<Dim>& particles) const
+{
+  const Vec<Dim> per_volume =
+      drag.force == Vec<Dim>::Zero() ? drag.force : Vec<Dim>(drag.force / drag.submerged_volume);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double part = submerged(particles.position[z_axis<Dim>][p], height) * particles.initial_volume[p];
+    for (std::size_t d = 0; d < Dim; ++d)
+      particles.force[d][p] = part * per_volume[static_cast<Eigen::Index>(d)];
+  }
+}
+
+template double Water::potential(const mpm::Particles<2>&, double) const;
+template double Water::potential(const mpm::Particles<3>&, double) const;
+template Water::Uptake<2> Water::immerse(double, double, mpm::Particles<2>&) const;
+template Water::Uptake<3> Water::immerse(double, double, mpm::Particles<3>&) const;
+template void Water::place(double, double, mpm::Particles<2>&) const;
+template void Water::place(double, double, mpm::Particles<3>&) const;
+template Water::Drag<2> Water::resist(const mpm::Particles<2>&, double, double, const mpm::Particles<2>&) const;
+template Water::Drag<3> Water::resist(const mpm::Particles<3>&, double, double, const mpm::Particles<3>&) const;
+template void Water::spread(const Drag<2>&, double, mpm::Particles<2>&) const;
+template void Water::spread(const Drag<3>&, double, mpm::Particles<3>&) const;
 
 }  // namespace geocontainer_mpm::scene

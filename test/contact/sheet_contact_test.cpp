@@ -19,7 +19,7 @@ constexpr std::size_t corners = 31;  ///< of the sheet, about a cell apart
 /// A disc of dust in a sheet that fits it, 1 m in radius, its nodes against the clock.
 struct Parcel {
   Field fill, sheet;
-  SheetContact contact;
+  SheetContact<2> contact;
 
   explicit Parcel(double friction, const std::vector<Vec2>& grains = disc(), const std::vector<Vec2>& nodes = circle())
       : fill(lattice(2.0, 0.2), grains, 0.1, 1000.0)

@@ -283,7 +283,7 @@ RC_GTEST_PROP(Water, DragActsAgainstTheMotionAndIsAllHandedOut, ())
 {
   const Water water = random_water();
   mpm::Particles<2> particles = random_particles(water, 1500.0, 0.3);
-  const Water::Drag drag = water.resist(particles, 0.3, 0.3, particles);
+  const Water::Drag<2> drag = water.resist(particles, 0.3, 0.3, particles);
   RC_ASSERT(drag.force.dot(drag.velocity) <= 0.0);
   water.spread(drag, 0.3, particles);
   RC_ASSERT((sum_of(particles.force) - drag.force).norm() <= 1e-12 * drag.force.norm());
@@ -295,7 +295,7 @@ TEST(Drag, PressesOnTheSideOfASheetThatFacesTheFlow)
   WaterDescription description;
   description.density_kg_per_m3 = 1000.0;
   const Water water(description, 0.0, 9.81);
-  Water::Drag drag;
+  Water::Drag<2> drag;
   drag.velocity = { 0.0, -2.0 };
   drag.force = { 0.0, 600.0 };
   for (const double sense : { 1.0, -1.0 }) {

@@ -144,8 +144,6 @@ private:
     Vec<Dim> velocity, impulse;
   };
 
-  /// Impulse of a load.
-  static Vec<Dim> impulse_of(const Load& load, const Vec<Dim>& normal);
   template <class Reach>
   Handle make_handle(const Reach& reach, const Vec<Dim>& point, const mpm::Grid<Dim>& grid);
   void mirror(const mpm::Grid<Dim>& grid, Handle& handle);

@@ -4,41 +4,29 @@
 ///
 /// The condition is that of ContactSolver with both sides free, (v(x_c) - v(x_s)) . n >= -gap / dt. The point x_c is
 /// a particle of the fill, whose surface is half its width outside, or a node of the other sheet; x_s is the nearest
-/// point of the sheet's segments, whose velocity is that of the segment's ends, each taken from its grid. So segments
-/// carry the normal and which side is inside, and what may not be crossed is the sheet itself. Impulses are spread by
-/// the shape functions of both sides, equal and opposite: momentum is kept exactly. So is angular momentum but for
-/// friction's part, which acts on a particle's middle and not on its surface: a couple of half its width times
-/// friction.
+/// point of the sheet's segments or triangles, whose velocity is that of the facet's corners, each taken from its grid.
+/// So facets carry the normal and which side is inside, and what may not be crossed is the sheet itself (see
+/// SheetSurface). Impulses are spread by the shape functions of both sides, equal and opposite: momentum is kept
+/// exactly. So is angular momentum but for friction's part, which acts on a particle's middle and not on its surface: a
+/// couple of half its width times friction. Near faces that mirror, point and sheet act together with their images.
 ///
-/// A slack sheet that collapses may cross itself, since the grid does not see layers that are closer than a cell. In
-/// the kink that it leaves there is fill on either side of the sheet, and the sense of its segments no longer says what
-/// is inside. So a point on the wrong side of the segment nearest to it has got through only if the sheet as a whole
-/// does not wind around it (or, where points belong outside, does); otherwise it touches from the side where it is.
-///
-/// Limits: a point sees one segment, the nearest. Sheets and particles that are further than half a cell on the wrong
-/// side are not seen any more.
+/// Limits: sheets and particles that are further than half a cell on the wrong side are not seen any more.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "geocontainer_mpm/contact/contact_solver.h"
+#include "geocontainer_mpm/contact/sheet_surface.h"
 
 namespace geocontainer_mpm::contact {
 
-/// A closed sheet as contact sees it: a segment goes from each node to the next, the last to the first.
-struct ClosedSheet {
-  const mpm::Particles<2>* nodes;
-  double outwards;  ///< 1: the right side of the segments looks outwards; -1: the left
-};
-
-/// On which side of a sheet points belong.
-enum class SheetSide { inside, outside };
-
+template <int Dim>
 class SheetContact {
 public:
-  SheetContact(mpm::Shape shape, SheetSide side, double friction) : shape_(shape), side_(side), friction_(friction) {}
+  SheetContact(mpm::Shape shape, SheetSide side, double friction) : shape_(shape), surface_(side), friction_(friction)
+  {
+  }
 
   /// While held, what touches sticks, whatever the friction.
   void hold(bool held) { held_ = held; }
@@ -46,69 +34,72 @@ public:
   // In this order, with others of the same fields in between: see ContactSolver. Both grids have the same origin,
   // counts and cell, and are updated by the forces of this step. Points keep their number from step to step.
   /// Finds what touches. `dt`: time until the next positions, s.
-  void begin(const ContactPoints<2>& points, const mpm::Grid<2>& point_grid, const ClosedSheet& sheet,
-             const mpm::Grid<2>& sheet_grid, double dt);
+  void begin(const ContactPoints<Dim>& points, const mpm::Grid<Dim>& point_grid, const ClosedSheet<Dim>& sheet,
+             const mpm::Grid<Dim>& sheet_grid, double dt);
   bool empty() const { return contacts_.empty(); }
   /// Adds the nodes of the grids that impulses reach, each once, on the points' side and on the sheet's.
   void add_nodes(std::vector<std::uint32_t>& of_points, std::vector<std::uint32_t>& of_sheet);
-  void guess(mpm::Grid<2>& point_grid, mpm::Grid<2>& sheet_grid) const;
-  double sweep(int number, mpm::Grid<2>& point_grid, mpm::Grid<2>& sheet_grid);
+  void guess(mpm::Grid<Dim>& point_grid, mpm::Grid<Dim>& sheet_grid) const;
+  double sweep(int number, mpm::Grid<Dim>& point_grid, mpm::Grid<Dim>& sheet_grid);
   void end();
 
 private:
-  /// Share of the nodes around a place: velocity there, and the change of velocity by an impulse there.
-  template <std::size_t Most>
+  /// What a place has of a node, and the node's change of velocity by an impulse there, 1/kg; near a face that mirrors
+  /// they differ by direction (see mirror.h).
+  template <class Value>
+  struct Share {
+    std::uint32_t node;
+    Value weight, mobility;
+  };
+  /// The shares of a place, one after the other in shares_ or, mirrored, in mirrored_.
   struct Handle {
-    std::array<std::uint32_t, Most> node;
-    std::array<double, Most> weight;    ///< zero where there is no mass
-    std::array<double, Most> mobility;  ///< weight over mass, 1/kg
-    std::size_t count = 0;
-
-    void add(std::uint32_t at, double share);
-    double weigh(const mpm::Grid<2>& grid);  ///< fills mobility; velocity per unit impulse, 1/kg
-    Vec2 velocity(const mpm::Grid<2>& grid) const;
-    void push(const Vec2& impulse, mpm::Grid<2>& grid) const;
+    std::uint32_t begin, end;
+    bool mirrored;
+  };
+  /// Velocity at a place per unit impulse there, 1/kg.
+  struct Compliance {
+    double all;  ///< the largest of all directions
+    Vec<Dim> by_direction;
+    bool mirrored;
+  };
+  struct Load {
+    double pressed = 0.0;  ///< impulses so far, normal and tangential, N s (N s / m in plane strain)
+    Drag<Dim> dragged = Drag<Dim>::Zero();
   };
   struct Contact {
-    Handle<9> point;
-    Handle<18> sheet;
-    Vec2 normal;              ///< unit, from the sheet to where points belong
-    double compliance;        ///< relative velocity per unit impulse, 1/kg
-    double approach;          ///< least relative normal velocity, m/s
-    double pressed, dragged;  ///< impulses so far: normal and tangential, N s / m
-    std::size_t id;           ///< of the point
+    Handle point, sheet;
+    Vec<Dim> normal;           ///< unit, from the sheet to where points belong
+    double compliance, along;  ///< relative velocity per unit impulse, tangential (at most) and normal, 1/kg
+    double approach;           ///< least relative normal velocity, m/s
+    Load load;
+    std::size_t id;  ///< of the point
   };
-  struct Segment {
-    Vec2 start, tangent, normal;  ///< tangent and normal unit; normal: to where points belong
-    double length;                ///< m
-  };
-  struct Entry {
-    std::uint32_t segment, next;
-  };
-  /// The sheet's point nearest to a place.
-  struct Foot {
-    std::size_t segment = 0;
-    double fraction = 0.0;  ///< from the segment's start to its end
-    Nearest<2> seen;
+  struct Gathered {
+    std::uint32_t node;
+    Vec<Dim> weight;
   };
 
-  void lay_out(const ClosedSheet& sheet, double reach, const mpm::Grid<2>& grid);
-  Foot foot_of(const Vec2& point, std::uint32_t first) const;
-  void add(const Vec2& point, const Foot& foot, double gap, std::size_t id, const mpm::Grid<2>& point_grid,
-           const ClosedSheet& sheet, const mpm::Grid<2>& sheet_grid, double dt);
-  double relax(Contact& contact, mpm::Grid<2>& point_grid, mpm::Grid<2>& sheet_grid) const;
+  void gather(const Vec<Dim>& at, double share, const mpm::Grid<Dim>& grid);
+  Handle make_handle(const mpm::Grid<Dim>& grid, Compliance& compliance);
+  void add(const Vec<Dim>& point, const SheetFoot<Dim>& foot, double gap, std::size_t id,
+           const mpm::Grid<Dim>& point_grid, const ClosedSheet<Dim>& sheet, const mpm::Grid<Dim>& sheet_grid,
+           double dt);
+  Vec<Dim> velocity(const Handle& handle, const mpm::Grid<Dim>& grid) const;
+  void push(const Handle& handle, const Vec<Dim>& impulse, mpm::Grid<Dim>& grid) const;
+  double relax(Contact& contact, mpm::Grid<Dim>& point_grid, mpm::Grid<Dim>& sheet_grid) const;
 
   mpm::Shape shape_;
-  SheetSide side_;
+  SheetSurface<Dim> surface_;
   double friction_;
   bool held_ = false;
   std::vector<Contact> contacts_;
-  std::vector<std::array<double, 2>> memory_;  ///< impulses of the last step per point: a good first guess
-  std::vector<Segment> segments_;
-  std::vector<Entry> entries_;        ///< lists of the segments near a cell
-  std::vector<std::uint32_t> first_;  ///< per cell the head of its list; `none` between calls
-  std::vector<std::size_t> cells_;    ///< that have a list
-  std::vector<std::uint8_t> seen_;    ///< per node; 0 between calls
+  std::vector<Share<double>> shares_;
+  std::vector<Share<Vec<Dim>>> mirrored_;
+  std::vector<Load> memory_;  ///< of the last step per point: a good first guess
+  // Of the handle that is being made:
+  std::vector<Gathered> gathered_;
+  bool near_mirror_ = false;
+  std::vector<std::uint32_t> slot_;  ///< per node of the grid its place in gathered_; `none` between calls
 };
 
 }  // namespace geocontainer_mpm::contact

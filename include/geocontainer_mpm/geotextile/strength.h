@@ -7,10 +7,10 @@
 
 namespace geocontainer_mpm::geotextile {
 
-/// A seam runs across the plane of the slice: a point of the sheet.
+/// A seam runs across the plane of the slice: a point of the sheet. In space it has many pieces; one of them.
 struct Seam {
   std::string name;
-  std::size_t segment = 0;  ///< of the sheet, in which it lies
+  std::size_t segment = 0;  ///< of the sheet, or triangle, in which it lies
   double efficiency = 1.0;  ///< its strength over the sheet's
 };
 

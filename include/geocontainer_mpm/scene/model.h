@@ -125,8 +125,8 @@ struct ModelState {
   std::vector<ModelSheet<Dim>> sheets;
   std::vector<Traction> tractions;  ///< in plane strain
   std::vector<Tracer<Dim>> tracers;
-  std::vector<contact::ContactSolver<Dim>> contact;  ///< per field
-  std::vector<contact::SheetContact> sheet_contact;  ///< in the order of the model's pairs
+  std::vector<contact::ContactSolver<Dim>> contact;       ///< per field
+  std::vector<contact::SheetContact<Dim>> sheet_contact;  ///< in the order of the model's pairs
   std::vector<BoundaryTotal<Dim>> boundary_totals;
   WaterState<Dim> water;
   Ledger ledger;

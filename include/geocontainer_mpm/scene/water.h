@@ -2,7 +2,9 @@
 /// Still water around bodies: what it takes from their weight, adds to their inertia, and how it resists.
 
 #include <array>
+#include <vector>
 
+#include "geocontainer_mpm/geotextile/mesh.h"
 #include "geocontainer_mpm/mpm/particles.h"
 #include "geocontainer_mpm/scene/description.h"
 
@@ -14,10 +16,13 @@ namespace geocontainer_mpm::scene {
 ///
 ///   weight mass     (rho - s rho_w) V0        effective stress: what the skeleton carries of its weight
 ///   inertia         (rho + s Ca rho_w) V0     water that is moved along; it has no weight
+///
+/// Masses, forces and energies are per metre of length in plane strain; in space they are whole, of the part of a scene
+/// that is computed.
 class Water {
 public:
-  /// `gravity`: along -z, m/s^2, > 0.
-  Water(const WaterDescription& description, double level_m, double gravity);
+  /// `gravity`: along -z, m/s^2, > 0. `symmetry`: of a scene in space, the part that is computed.
+  Water(const WaterDescription& description, double level_m, double gravity, Symmetry symmetry = Symmetry::none);
 
   double density() const { return density_; }
   double level() const { return level_; }
@@ -29,38 +34,50 @@ public:
   /// zero.
   double overburden(double soil_density, double z, double top) const;
 
-  /// Energy of buoyancy, J/m: zero above the water.
-  double potential(const mpm::Particles<2>& particles, double height) const;
+  /// Energy of buoyancy, J/m or J: zero above the water.
+  template <int Dim>
+  double potential(const mpm::Particles<Dim>& particles, double height) const;
+  template <int Dim>
   struct Uptake {
-    double left_behind = 0.0;    ///< kinetic energy, J/m
-    Vec2 slowed = Vec2::Zero();  ///< velocity that particles lost times their weight mass, kg/s
+    double left_behind = 0.0;            ///< kinetic energy, J/m or J
+    Vec<Dim> slowed = Vec<Dim>::Zero();  ///< velocity that particles lost times their weight mass, kg/s or kg m/s
   };
   /// Sets weight and inertia of every particle by its depth. Water that is taken up was at rest: momentum stays, and
   /// the particle slows down. Water that is left behind keeps its speed, and so does the particle. Either way kinetic
   /// energy stays behind in the water. (Von Karman 1929, NACA TN 321: F = d(m_a v)/dt at entry, half of
   /// whose work goes into spray. At exit nothing pushes the body out.)
-  Uptake immerse(double soil_density, double height, mpm::Particles<2>& particles) const;
+  template <int Dim>
+  Uptake<Dim> immerse(double soil_density, double height, mpm::Particles<Dim>& particles) const;
   /// The same before the start, for water that moves with the body already.
-  void place(double soil_density, double height, mpm::Particles<2>& particles) const;
+  template <int Dim>
+  void place(double soil_density, double height, mpm::Particles<Dim>& particles) const;
 
+  template <int Dim>
   struct Drag {
-    double submerged_volume = 0.0;  ///< m^2
-    Vec2 velocity = Vec2::Zero();   ///< mean of that part, m/s
-    Vec2 force = Vec2::Zero();      ///< N/m
+    double submerged_volume = 0.0;         ///< m^2 or m^3
+    Vec<Dim> velocity = Vec<Dim>::Zero();  ///< mean of that part, m/s; of the whole: without a part across symmetry
+    Vec<Dim> force = Vec<Dim>::Zero();     ///< N/m or N
   };
   /// Resistance to the body's motion as a whole, F = rho_w / 2 Cd b v^2 times the share under water, against the mean
-  /// velocity of that share. b is the extent of `surface` across it, `margin` (m) more where the surface stands that
-  /// far out.
-  Drag resist(const mpm::Particles<2>& surface, double margin, double height, const mpm::Particles<2>& particles) const;
+  /// velocity of that share. b is what of `surface` is seen along it: its extent across, or the area of its shadow
+  /// (shadow.h), `margin` (m) wider where the surface stands that far out.
+  template <int Dim>
+  Drag<Dim> resist(const mpm::Particles<Dim>& surface, double margin, double height,
+                   const mpm::Particles<Dim>& particles) const;
   /// Hands drag to the nodes of the closed sheet around the body: against the motion, evenly over the width of the side
   /// that faces the flow. It is there that the water presses, and holds the fill by the sheet. (The pressure behind is
   /// lower than outside but nearly uniform; a slack sheet takes none of it.)
-  void press(const Drag& drag, const mpm::Particles<2>& sheet, std::array<mpm::Column, 2>& forces) const;
+  void press(const Drag<2>& drag, const mpm::Particles<2>& sheet, std::array<mpm::Column, 2>& forces) const;
+  /// The same in space, with triangles that look outwards: a third of each one's share to every corner.
+  void press(const Drag<3>& drag, const mpm::Particles<3>& sheet, const std::vector<geotextile::Triangle>& triangles,
+             std::array<mpm::Column, 3>& forces) const;
   /// Hands drag to the particles of a bare body, whose surface is not known, by their submerged volume.
-  void spread(const Drag& drag, double height, mpm::Particles<2>& particles) const;
+  template <int Dim>
+  void spread(const Drag<Dim>& drag, double height, mpm::Particles<Dim>& particles) const;
 
 private:
   double density_, level_, gravity_, drag_, added_;
+  Symmetry symmetry_;
 };
 
 }  // namespace geocontainer_mpm::scene
