@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "geocontainer_mpm/contact/contact_solver.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::contact {
 
@@ -56,6 +57,8 @@ public:
   void end();
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   /// Share of the nodes around a place: velocity there, and the change of velocity by an impulse there.
   template <std::size_t Most>
   struct Handle {
