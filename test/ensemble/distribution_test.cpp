@@ -95,9 +95,9 @@ TEST(Distribution, CutNormalHasTheMomentsOfTheCutLaw)
   const auto density = [](double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::acos(-1.0)); };
   const double left = normal_share_below(beta) - normal_share_below(alpha);
   const double shift = (density(alpha) - density(beta)) / left;
-  expect_moments(normal(mean, deviation, mean + alpha * deviation, mean + beta * deviation), mean + deviation * shift,
-                 deviation * deviation *
-                     (1.0 + (alpha * density(alpha) - beta * density(beta)) / left - shift * shift));
+  expect_moments(
+      normal(mean, deviation, mean + alpha * deviation, mean + beta * deviation), mean + deviation * shift,
+      deviation * deviation * (1.0 + (alpha * density(alpha) - beta * density(beta)) / left - shift * shift));
 }
 
 TEST(Distribution, TriangularGoesThroughItsMode)

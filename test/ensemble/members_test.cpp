@@ -98,7 +98,8 @@ TEST(RunMembers, RunsEachOnceOnAnyNumberOfThreads)
 
 TEST(Text, KeepsTheBits)
 {
-  std::vector<Member> members = { completed(Outcome::hung_up, 0.1 + 0.2, 1.0 / 3.0, std::nullopt), failed("a \"b\"\n") };
+  std::vector<Member> members = { completed(Outcome::hung_up, 0.1 + 0.2, 1.0 / 3.0, std::nullopt),
+                                  failed("a \"b\"\n") };
   members[0].digest = 0xfedcba9876543210ULL;
   members[0].ruptures = 4;
   const std::vector<Member> back = from_text(to_text(members));
