@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -99,7 +102,6 @@ bool moved(const Simulation& simulation)
 
 const std::vector<Case>& cases()
 {
-  const std::string release = "config/scenes/release.yaml";
   static const std::vector<Case> all = {
     { "bonded", "config/scenes/release.yaml",
       coarse({ "probes.tension={geotextile: {name: container}}", "probes.hull={surface: hull_port}",
@@ -204,7 +206,7 @@ TEST_P(CheckpointOf, EndsWhereTheUndisturbedRunEnds)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CheckpointOf, testing::ValuesIn(cases()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 SceneDescription coarse_release(std::vector<std::string> more = {})
 {
