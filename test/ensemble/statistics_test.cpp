@@ -73,8 +73,9 @@ RC_GTEST_PROP(RankCorrelation, SeesOrderAlone, (const std::vector<int>& samples)
   RC_ASSERT(std::abs(*rank_correlation(x, grown) - *rho) < 1e-12);
   RC_ASSERT(std::abs(*rank_correlation(x, mirrored) + *rho) < 1e-12);
   std::sort(y.begin(), y.end());
-  if (std::adjacent_find(y.begin(), y.end()) == y.end())
+  if (std::adjacent_find(y.begin(), y.end()) == y.end()) {
     RC_ASSERT(std::abs(*rank_correlation(x, y) - 1.0) < 1e-12);
+  }
 }
 
 TEST(Share, HasWilsonsInterval)
