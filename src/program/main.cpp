@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "ensemble_run.h"
 #include "exit_status.h"
 #include "geocontainer_mpm/error.h"
 #include "options.h"
@@ -18,7 +19,9 @@ int main(int argc, char** argv)
     const program::CommandLine line = program::parse_command_line(argc, argv);
     if (line.exit_status)
       return *line.exit_status;
-    return line.options.show.empty() ? program::run(line.options) : program::show(line.options.show);
+    if (!line.options.show.empty())
+      return program::show(line.options.show);
+    return line.options.ensemble > 0 ? program::run_ensemble(line.options) : program::run(line.options);
   } catch (const InputError& error) {
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');

@@ -1,6 +1,8 @@
 #pragma once
 /// Command line of `simulate`.
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +21,14 @@ struct Options {
   std::string show;                    ///< JSON summary to print, and nothing else; empty: none
   std::vector<std::string> overrides;  ///< `dotted.key=value`
   std::optional<double> until_s;       ///< cap of the scene's time.end_s, s
-  int threads = 1;
+  int threads = 1;         ///< of the solver, or members at a time; 0: of an ensemble, as many as there are cores
+  std::string checkpoint;  ///< file to write the state to, again and again; empty: none
+  double checkpoint_period_s = 60.0;  ///< of wall-clock time, s
+  std::string resume;                 ///< checkpoint to go on from; empty: from the start
+  std::size_t ensemble = 0;           ///< number of members; 0: a single run
+  std::string distributions;          ///< YAML file with what is drawn
+  std::uint64_t seed = 1;
+  std::string members;  ///< CSV file to write, one row a member; empty: none
 };
 
 /// What the command line asks for: a run, or (with `exit_status` set) nothing more, its answer having been printed.
@@ -27,6 +36,9 @@ struct CommandLine {
   Options options;
   std::optional<int> exit_status;
 };
+
+/// That this process may use.
+int cores();
 
 /// Prints help, version, or one line on stderr about what is wrong.
 CommandLine parse_command_line(int argc, const char* const* argv);

@@ -1,6 +1,5 @@
 #include "report.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/record/whole_file.h"
 
 namespace geocontainer_mpm::program {
 namespace {
@@ -26,18 +26,6 @@ using Json = nlohmann::ordered_json;
 fs::path folder_of(const fs::path& path)
 {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-/// Returns errno, 0 for success.
-int write_all(int file, const std::string& text)
-{
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(file, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR)
-      return errno;
-    done += count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
-  return 0;
 }
 
 /// A value with its unit, or a dash where the summary has none.
@@ -134,28 +122,10 @@ void check_output(const std::string& option, const std::string& path)
     refuse(option, path, std::strerror(errno));
 }
 
-void write_summary(const std::string& path, const std::string& text)
+void write_file(const std::string& option, const std::string& path, const std::string& text)
 {
-  std::error_code ignored;
-  // A pipe or terminal is not to be replaced by a file.
-  const bool replace = !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
-  const fs::path target = replace ? fs::weakly_canonical(path, ignored) : fs::path(path);
-  const std::string written = replace ? fmt::format("{}.{}.part", target.string(), ::getpid()) : target.string();
-  const int file = ::open(written.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (replace ? O_TRUNC : 0), 0666);
-  if (file < 0)
-    refuse("--summary", path, std::strerror(errno));
-  int error = write_all(file, text);
-  if (error == 0 && replace && ::fsync(file) != 0)
-    error = errno;
-  if (::close(file) != 0 && error == 0)
-    error = errno;
-  if (error == 0 && replace && std::rename(written.c_str(), target.c_str()) != 0)
-    error = errno;
-  if (error == 0)
-    return;
-  if (replace)
-    ::unlink(written.c_str());
-  refuse("--summary", path, std::strerror(error));
+  if (const std::string error = record::replace_file(path, text); !error.empty())
+    refuse(option, path, error);
 }
 
 std::string table(const Json& s)

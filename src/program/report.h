@@ -10,8 +10,8 @@ namespace geocontainer_mpm::program {
 void check_output(const std::string& option, const std::string& path);
 
 /// Replaces the file at once (written beside it, then renamed): a reader sees the old text or the new one, never half.
-/// Throws an InputError naming --summary.
-void write_summary(const std::string& path, const std::string& text);
+/// Throws an InputError naming the option.
+void write_file(const std::string& option, const std::string& path, const std::string& text);
 
 /// The main results, for people.
 std::string table(const nlohmann::ordered_json& summary);

@@ -10,17 +10,15 @@
 #include <optional>
 #include <sstream>
 
-#include "angles_csv.h"
+#include "case.h"
 #include "exit_status.h"
 #include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/record/checkpoint.h"
 #include "geocontainer_mpm/record/recorder.h"
 #include "geocontainer_mpm/scene/simulation.h"
 #include "progress_bar.h"
 #include "report.h"
 #include "stop_request.h"
-#ifdef GEOCONTAINER_MPM_WITH_ROS
-#include "bag_log.h"
-#endif
 
 namespace geocontainer_mpm::program {
 namespace {
@@ -36,16 +34,6 @@ struct End {
   std::string why;  ///< one sentence; empty for a completed run
 };
 
-scene::SceneDescription load(const Options& options)
-{
-  scene::SceneDescription scene = scene::load_scene(options.scene, options.overrides);
-  if (options.until_s)
-    scene.time.end_s = std::min(scene.time.end_s, *options.until_s);
-  if (!scene.hull && (!options.bag.empty() || !options.angles.empty()))
-    throw InputError(options.scene, "hull", "", "missing, but a log of opening angles needs a hull to open");
-  return scene;
-}
-
 /// The YAML as the run saw it: overrides follow as comments.
 std::string scene_text(const Options& options)
 {
@@ -56,35 +44,24 @@ std::string scene_text(const Options& options)
   return text.str();
 }
 
-std::vector<barge::OpeningSample> read_log(const Options& options)
-{
-  if (!options.angles.empty())
-    return read_angles_csv(options.angles);
-#ifdef GEOCONTAINER_MPM_WITH_ROS
-  return read_bag({ options.bag, options.opening_topic, options.port_joint, options.starboard_joint });
-#else
-  throw InputError("command line", "--bag", options.bag, "this simulate was built without ROS and reads no bags");
-#endif
-}
-
-void feed(barge::OpeningSignal& opening, const std::vector<barge::OpeningSample>& samples, const std::string& path)
-{
-  for (const barge::OpeningSample& sample : samples)
-    opening.add(sample);
-  if (opening.empty())
-    throw InputError(path, "opening", "",
-                     fmt::format("none of its {} samples is believable (keys under hull.signal)", samples.size()));
-  opening.finish();
-}
-
 void check_outputs(const Options& options)
 {
-  if (!options.record.empty())
-    check_output("--record", options.record);
-  if (!options.summary.empty())
-    check_output("--summary", options.summary);
-  if (!options.record.empty() && options.record == options.summary)
-    throw InputError("command line", "--summary", options.summary, "must be another file than --record");
+  std::vector<std::pair<const char*, const std::string*>> outputs;
+  for (const auto& [option, path] :
+       { std::make_pair("--record", &options.record), std::make_pair("--summary", &options.summary),
+         std::make_pair("--checkpoint", &options.checkpoint) }) {
+    if (path->empty())
+      continue;
+    check_output(option, *path);
+    for (const auto& [other, same] : outputs)
+      if (*same == *path)
+        throw InputError("command line", option, *path, std::string("must be another file than ") + other);
+    outputs.emplace_back(option, path);
+  }
+  std::error_code ignored;
+  if (!options.resume.empty() && !options.record.empty() && std::filesystem::exists(options.record, ignored))
+    throw InputError("command line", "--record", options.record,
+                     "exists; a run that is resumed records from the checkpoint on, into a new file");
 }
 
 /// Keeps frames, each instant once.
@@ -110,6 +87,37 @@ private:
   double last_s_ = -1.0;
 };
 
+/// Keeps the state of the run in a file, from the first frame on.
+class Saver {
+public:
+  Saver(const Options& options, std::uint64_t opening)
+      : path_(options.checkpoint), period_(options.checkpoint_period_s), opening_(opening)
+  {
+  }
+
+  /// Where the period is over. Empty, or what went wrong.
+  std::string save_if_due(const Simulation& simulation)
+  {
+    return !path_.empty() && Clock::now() >= due_ ? save(simulation) : std::string();
+  }
+  std::string save(const Simulation& simulation)
+  {
+    if (path_.empty())
+      return {};
+    const std::string error = record::save_checkpoint(simulation, opening_, path_);
+    due_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(period_);
+    return error;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  const std::string& path_;
+  const std::chrono::duration<double> period_;
+  const std::uint64_t opening_;
+  Clock::time_point due_ = Clock::time_point::min();
+};
+
 std::string describe(const Simulation& simulation)
 {
   const scene::Failure& failure = simulation.failure();
@@ -118,25 +126,35 @@ std::string describe(const Simulation& simulation)
 }
 
 /// From now to the end, whatever kind of end it is. A stopped run keeps no last frame: its state is not to be trusted.
-End advance_to_end(Simulation& simulation, Keeper& keeper, const StopRequest& stop)
+/// Its last checkpoint stays as it is.
+End advance_to_end(Simulation& simulation, Keeper& keeper, Saver& saver, const StopRequest& stop)
 {
+  const auto unwritten = [](const char* what, const std::string& error) {
+    return End{ exit_bad_input, fmt::format("the {} cannot be written: {}", what, error) };
+  };
   ProgressBar bar(simulation.scene().time.end_s);
   std::string record_error = keeper.keep(simulation);
   while (record_error.empty()) {
+    std::string save_error;
     if (stop.signal() != 0) {
       keeper.keep(simulation);
+      if (simulation.counters().steps > 0)
+        save_error = saver.save(simulation);
       return { exit_signal_base + stop.signal(),
-               fmt::format("stopped by signal {} at {:.4f} s", stop.signal(), simulation.time_s()) };
+               fmt::format("stopped by signal {} at {:.4f} s{}", stop.signal(), simulation.time_s(),
+                           save_error.empty() ? "" : "; the checkpoint cannot be written: " + save_error) };
     }
     switch (simulation.advance(steps_between_looks)) {
       case Advance::stepped:
         break;
       case Advance::frame_due:
         record_error = keeper.keep(simulation);
+        save_error = saver.save_if_due(simulation);
         break;
       case Advance::finished:
         record_error = keeper.keep(simulation);
-        if (record_error.empty())
+        save_error = saver.save(simulation);
+        if (record_error.empty() && save_error.empty())
           return {};
         break;
       case Advance::waiting:  // cannot be: the opening is known to the end
@@ -144,18 +162,21 @@ End advance_to_end(Simulation& simulation, Keeper& keeper, const StopRequest& st
       case Advance::stopped:
         return { exit_solver_stopped, describe(simulation) };
     }
+    if (!save_error.empty())
+      return unwritten("checkpoint", save_error);
     bar.show(simulation.time_s());
   }
-  return { exit_bad_input, "the record cannot be written: " + record_error };
+  return unwritten("record", record_error);
 }
 
 nlohmann::ordered_json summarise(const Simulation& simulation, const Options& options, const End& end,
-                                 double wall_time_s, double setup_time_s)
+                                 double wall_time_s, double setup_time_s, std::optional<double> resumed_at_s)
 {
   auto summary = nlohmann::ordered_json::parse(scene::summary_json(simulation, wall_time_s, options.threads));
   summary["completed"] = end.exit_status == exit_completed;
   summary["why"] = end.why.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(end.why);
   summary["setup_time_s"] = setup_time_s;
+  summary["resumed_at_s"] = resumed_at_s ? nlohmann::ordered_json(*resumed_at_s) : nlohmann::ordered_json();
   return summary;
 }
 
@@ -167,32 +188,35 @@ int run(const Options& options)
   const auto seconds = [](Clock::duration duration) { return std::chrono::duration<double>(duration).count(); };
   const StopRequest stop;
 
-  const scene::SceneDescription scene = load(options);
+  const scene::SceneDescription scene = load_case(options);
   check_outputs(options);
-  const std::string log = options.angles.empty() ? options.bag : options.angles;
-  const std::vector<barge::OpeningSample> samples =
-      log.empty() ? std::vector<barge::OpeningSample>() : read_log(options);
+  const std::vector<barge::OpeningSample> samples = read_log(options);
+  const std::uint64_t opening = record::opening_hash(samples);
 
   const Clock::time_point begin = Clock::now();
-  Simulation simulation(scene, options.threads);
-  if (log.empty())
-    simulation.use_scene_opening();
+  Simulation simulation = options.resume.empty()
+                              ? Simulation(scene, options.threads)
+                              : record::load_checkpoint(options.resume, scene, opening, options.threads);
+  std::optional<double> resumed_at_s;
+  if (options.resume.empty())
+    open_hull(options, samples, simulation);
   else
-    feed(simulation.opening(), samples, log);
+    resumed_at_s = simulation.time_s();
 
   const Clock::time_point start = Clock::now();
   End end;
   {
     Keeper keeper(options, scene.name);
-    end = advance_to_end(simulation, keeper, stop);
+    Saver saver(options, opening);
+    end = advance_to_end(simulation, keeper, saver, stop);
   }
   const nlohmann::ordered_json summary =
-      summarise(simulation, options, end, seconds(Clock::now() - start), seconds(start - begin));
+      summarise(simulation, options, end, seconds(Clock::now() - start), seconds(start - begin), resumed_at_s);
   if (!end.why.empty())
     fmt::print(stderr, "simulate: {}: {}\n", options.scene, end.why);
   fmt::print("{}", table(summary));
   if (!options.summary.empty())
-    write_summary(options.summary, summary.dump(2) + "\n");
+    write_file("--summary", options.summary, summary.dump(2) + "\n");
   return end.exit_status;
 }
 

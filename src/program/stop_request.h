@@ -1,6 +1,7 @@
 #pragma once
 /// SIGINT and SIGTERM ask a run to stop after its current step. A second one ends the process at once.
 
+#include <atomic>
 #include <csignal>
 
 namespace geocontainer_mpm::program {
@@ -21,7 +22,10 @@ public:
   int signal() const { return received; }
 
 private:
-  static inline volatile std::sig_atomic_t received = 0;  ///< a handler can reach nothing but a static
+  static inline std::atomic<int> received{
+    0
+  };  ///< a handler can reach nothing but a static; members' threads look too
+  static_assert(std::atomic<int>::is_always_lock_free);
 };
 
 }  // namespace geocontainer_mpm::program

@@ -162,6 +162,7 @@ Simulation::Simulation(const SceneDescription& scene, int threads) : state_(std:
   else
     state_->run = std::make_unique<Run<2>>(scene, threads);
 }
+Simulation::Simulation(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -74,7 +74,7 @@ ChangingTimes changing_times(const SceneDescription& scene)
 }  // namespace
 
 template <int Dim>
-Run<Dim>::Run(const SceneDescription& description, int threads)
+Run<Dim>::Run(const SceneDescription& description, int threads, Unsettled)
     : scene(description)
     , model(scene, threads)
     , opening(signal_parameters())
@@ -83,6 +83,11 @@ Run<Dim>::Run(const SceneDescription& description, int threads)
     , watch(scene)
     , probes(scene, model)
     , fresh_probes(probes)
+{
+}
+
+template <int Dim>
+Run<Dim>::Run(const SceneDescription& description, int threads) : Run(description, threads, Unsettled{})
 {
   settle();
   settled = model.state();

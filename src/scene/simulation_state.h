@@ -12,6 +12,7 @@
 #include "geocontainer_mpm/scene/probes.h"
 #include "geocontainer_mpm/scene/release_watch.h"
 #include "geocontainer_mpm/scene/simulation.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -50,6 +51,9 @@ struct Run {
   };
 
   Run(const SceneDescription& description, int threads);
+  /// The same but not settled, for a state that is to be put into it (load_checkpoint).
+  struct Unsettled {};
+  Run(const SceneDescription& description, int threads, Unsettled);
 
   barge::OpeningSignalParameters signal_parameters() const;
   /// Of a scene of which half is computed, the mean of both halves.
@@ -71,6 +75,8 @@ struct Run {
   Progress fresh_progress;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   bool damp_to_rest(double furthest_slide_m);
   void settle();
   double output_time_s() const;

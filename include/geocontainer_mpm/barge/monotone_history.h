@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geocontainer_mpm/state_access.h"
+
 namespace geocontainer_mpm::barge {
 
 /// Between knots the values follow a cubic Hermite polynomial whose slopes satisfy the monotonicity condition of
@@ -32,6 +34,8 @@ public:
   double next_motion_s(double time_s) const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   struct Knot {
     std::int64_t time_ns;
     double time_s;

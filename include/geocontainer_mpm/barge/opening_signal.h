@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geocontainer_mpm/barge/monotone_history.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::barge {
 
@@ -123,6 +124,8 @@ public:
   const OpeningSample& last_accepted() const { return last_accepted_; }
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   using Pair = MonotoneHistory::Pair;  // port, starboard
   struct Measurement {
     std::int64_t time_ns;  // since origin_ns_

@@ -19,6 +19,7 @@
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/particles.h"
 #include "geocontainer_mpm/mpm/reach.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::contact {
 
@@ -108,6 +109,8 @@ public:
            ContactImpulses<Dim>& impulses, ContactSums<Dim>& sums);
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   /// A point's share of the nodes around it.
   struct Handle {
     std::array<std::uint32_t, mpm::most_nodes<Dim>> node;

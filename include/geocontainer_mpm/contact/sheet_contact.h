@@ -18,6 +18,7 @@
 
 #include "geocontainer_mpm/contact/contact_solver.h"
 #include "geocontainer_mpm/contact/sheet_surface.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::contact {
 
@@ -44,6 +45,8 @@ public:
   void end();
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   /// What a place has of a node, and the node's change of velocity by an impulse there, 1/kg; near a face that mirrors
   /// they differ by direction (see mirror.h).
   template <class Value>

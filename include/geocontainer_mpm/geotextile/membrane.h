@@ -31,6 +31,7 @@
 #include "geocontainer_mpm/geotextile/mesh.h"
 #include "geocontainer_mpm/mpm/frequency_bound.h"
 #include "geocontainer_mpm/mpm/particles.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::geotextile {
 
@@ -103,6 +104,8 @@ public:
   void add_stiffness(mpm::FrequencyBound<3>& bound) const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   /// All that belongs to one direction of yarns; columns per triangle.
   struct Family {
     ForceStrain law;

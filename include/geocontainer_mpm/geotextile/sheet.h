@@ -25,6 +25,7 @@
 #include "geocontainer_mpm/mpm/frequency_bound.h"
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/particles.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::geotextile {
 
@@ -113,6 +114,8 @@ public:
   void add_stiffness(mpm::FrequencyBound<2>& bound) const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   double carried(std::size_t piece, double strain, const Vec2& place);
   bool is_active(std::size_t piece) const;
   bool pull_with_segments();

@@ -8,6 +8,7 @@
 
 #include "geocontainer_mpm/material/law.h"
 #include "geocontainer_mpm/mpm/types.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::mpm {
 
@@ -84,6 +85,8 @@ struct Particles {
   }
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   static Vec<Dim> vector_of(const std::array<Column, Dim>& columns, std::size_t p)
   {
     Vec<Dim> v;

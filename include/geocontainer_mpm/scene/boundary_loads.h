@@ -9,6 +9,7 @@
 #include "geocontainer_mpm/mpm/grid.h"
 #include "geocontainer_mpm/mpm/particles.h"
 #include "geocontainer_mpm/scene/description.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -37,6 +38,8 @@ public:
   std::optional<std::uint32_t> torn() const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   struct Piece {
     std::uint32_t owner;  ///< id of the particle
     Vec2 offset;          ///< of the piece's middle from the particle, m

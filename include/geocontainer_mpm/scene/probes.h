@@ -6,6 +6,7 @@
 
 #include "geocontainer_mpm/scene/frame.h"
 #include "geocontainer_mpm/scene/model.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -27,6 +28,8 @@ public:
   std::vector<ProbeFrame> of_frame() const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   /// What one probe looks at.
   struct Target {
     ProbeDescription probe;

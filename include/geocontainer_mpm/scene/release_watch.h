@@ -7,6 +7,7 @@
 
 #include "geocontainer_mpm/barge/split_hull.h"
 #include "geocontainer_mpm/scene/model.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -21,6 +22,8 @@ public:
   StatusFrame status(const Model<Dim>& model) const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   void open_episodes(const Model<Dim>& model, double time_s);
   void measure(const ModelSheet<Dim>& what, double time_s, ContainerStatus& watched);
   void judge(const ModelSheet<Dim>& sheet, double time_s, const barge::OpeningAngles& opening, double still_for_s,

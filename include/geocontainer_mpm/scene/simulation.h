@@ -10,6 +10,7 @@
 #include "geocontainer_mpm/barge/opening_signal.h"
 #include "geocontainer_mpm/scene/description.h"
 #include "geocontainer_mpm/scene/frame.h"
+#include "geocontainer_mpm/state_access.h"
 
 namespace geocontainer_mpm::scene {
 
@@ -91,7 +92,10 @@ public:
   std::uint64_t digest() const;
 
 private:
+  friend struct geocontainer_mpm::StateAccess;
+
   struct State;
+  explicit Simulation(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 
