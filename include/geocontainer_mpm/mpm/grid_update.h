@@ -32,7 +32,7 @@ public:
   /// Mirrors what was scattered beyond roller and fixed faces back inside, so that the face is a plane of
   /// (anti)symmetry, then v = (v_old + M^-1 kick f) * max(0, 1 - damping * kick) with M v_old = p at every node of the
   /// window. `kick`: time between the mid-steps, s (leapfrog: half of the last step plus half of this one).
-  /// For a blended transfer the grid keeps v_old, under the same face conditions. A consistent mass must have been assembled.
+  /// For a blended transfer the grid keeps v_old, under the same face conditions. A consistent mass must be assembled.
   MotionSums<Dim> apply_forces(const Discretisation& discretisation, Grid<Dim>& grid, double kick, double damping_per_s,
                                ThreadTeam& team);
 
