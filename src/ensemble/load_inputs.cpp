@@ -79,13 +79,14 @@ void read_parameters(const YAML::Node& node, const std::string& key, const Form&
     throw InputError("", key, text_of(node), "must be a map with " + listed(form.parameters));
   for (const auto& entry : node) {
     const std::string& name = entry.first.Scalar();
+    const std::string full = fmt::format("{}.{}", key, name);
     const Parameter* parameter = nullptr;
     for (const Parameter& known : form.parameters)
       if (name == known.name)
         parameter = &known;
     if (!parameter)
-      throw InputError("", key + "." + name, text_of(entry.second), "unknown key; allowed: " + listed(form.parameters));
-    distribution.*parameter->value = number(entry.second, key + "." + name);
+      throw InputError("", full, text_of(entry.second), "unknown key; allowed: " + listed(form.parameters));
+    distribution.*parameter->value = number(entry.second, full);
   }
   for (const Parameter& parameter : form.parameters)
     if (parameter.required && !node[parameter.name])
@@ -102,8 +103,9 @@ Distribution read_distribution(const YAML::Node& node, const std::string& key)
       continue;
     Distribution distribution;
     distribution.shape = form.shape;
-    read_parameters(node.begin()->second, key + "." + name, form, distribution);
-    distribution.validate(key + "." + name);
+    const std::string full = fmt::format("{}.{}", key, name);
+    read_parameters(node.begin()->second, full, form, distribution);
+    distribution.validate(full);
     return distribution;
   }
   throw InputError("", key + "." + name, "", "unknown distribution; allowed: " + listed(forms()));

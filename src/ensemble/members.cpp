@@ -64,6 +64,7 @@ FigureSummary summarise_figure(const std::vector<const Member*>& members, std::s
                                const std::vector<std::vector<double>>& inputs, double chance)
 {
   std::vector<double> samples;
+  samples.reserve(members.size());
   for (const Member* member : members)
     samples.push_back(value_of(*member, figure));
   FigureSummary summary{ quantile(samples, 0.1), quantile(samples, 0.5), quantile(samples, 0.9), {}, std::nullopt };

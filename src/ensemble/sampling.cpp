@@ -55,6 +55,7 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t members, const std:
 std::vector<std::vector<std::string>> draw(const std::vector<Input>& inputs, std::size_t members, std::uint64_t seed)
 {
   std::vector<std::string> keys;
+  keys.reserve(inputs.size());
   for (const Input& input : inputs)
     keys.push_back(input.key);
   std::vector<std::vector<std::string>> values;

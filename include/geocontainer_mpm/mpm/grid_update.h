@@ -11,9 +11,9 @@
 namespace geocontainer_mpm::mpm {
 
 /// Sums over the nodes of the window, in an order that does not depend on the number of threads. Kinetic energy is the
-/// grid's, p . v / 2 with v = M^-1 p: where the transfer is blended the particles hold more of it than the grid sees, so that what the
-/// ledger of transfers takes from one step's end to the next one's start can be negative for a step. Contact and faces
-/// book with lumped masses whatever the matrix.
+/// grid's, p . v / 2 with v = M^-1 p: where the transfer is blended the particles hold more of it than the grid sees,
+/// so that what the ledger of transfers takes from one step's end to the next one's start can be negative for a step.
+/// Contact and faces book with lumped masses whatever the matrix.
 template <int Dim>
 struct MotionSums {
   double kinetic_before = 0.0;                  ///< of the transferred momentum, J (J/m in plane strain)
