@@ -104,7 +104,7 @@ public:
   {
     if (path_.empty())
       return {};
-    const std::string error = record::save_checkpoint(simulation, opening_, path_);
+    std::string error = record::save_checkpoint(simulation, opening_, path_);
     due_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(period_);
     return error;
   }
