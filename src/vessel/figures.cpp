@@ -63,4 +63,10 @@ const std::vector<Figure>& figures()
   return table;
 }
 
+Notice release_notice(const ReleaseFigures& release)
+{
+  const std::string state = release.state == ReleaseState::hung_up ? "alarm" : release.stopped ? "warn" : "normal";
+  return { state, release.message, state == "alarm" };
+}
+
 }  // namespace geocontainer_mpm::vessel

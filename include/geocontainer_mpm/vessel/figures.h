@@ -58,4 +58,7 @@ struct Figure {
 /// The table. A figure more is a line more in src/vessel/figures.cpp.
 const std::vector<Figure>& figures();
 
+/// What the release itself is an alarm for: standing still in the slot, or a prediction that has stopped.
+Notice release_notice(const ReleaseFigures& release);
+
 }  // namespace geocontainer_mpm::vessel
