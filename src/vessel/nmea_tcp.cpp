@@ -114,6 +114,7 @@ private:
   void end(const std::string& why)
   {
     over_ = true;
+    link_.count([&](NmeaPortHealth& health) { health.dropped += waiting_.size(); });
     silence_.cancel();
     stall_.cancel();
     error_code ignored;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <ctime>
 
 namespace geocontainer_mpm::vessel {
@@ -45,6 +46,14 @@ std::optional<std::chrono::nanoseconds> take_fraction(std::string_view& text)
   return std::chrono::nanoseconds(nanoseconds);
 }
 
+/// `month` from 0. Gregorian.
+int days_of_month(int year, int month)
+{
+  static constexpr std::array<int, 12> days = { 31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31 };
+  const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+  return days[static_cast<std::size_t>(month)] + (month == 1 && leap ? 1 : 0);
+}
+
 }  // namespace
 
 std::string format_utc(Stamp stamp)
@@ -80,13 +89,10 @@ std::optional<Stamp> parse_utc(std::string_view text)
   }
   if (text != "Z")
     return std::nullopt;
-  utc.tm_year = year - 1900;
-  const int month = utc.tm_mon;
-  const int day = utc.tm_mday;
-  const std::time_t seconds = ::timegm(&utc);
-  // timegm() takes the 31st of February for the 3rd of March. A leap second may carry over into the next minute.
-  if (month > 11 || day > 31 || (utc.tm_mon != month && !(utc.tm_mday == 1 && utc.tm_sec == 0)))
+  if (utc.tm_mon > 11 || utc.tm_mday > days_of_month(year, utc.tm_mon))
     return std::nullopt;
+  utc.tm_year = year - 1900;
+  const std::time_t seconds = ::timegm(&utc);
   return Stamp(std::chrono::seconds(seconds) + fraction);
 }
 

@@ -46,7 +46,7 @@ TEST(Nmea, EveryFaultHasItsName)
   EXPECT_EQ(fault_of("$IIXDR,A,1,D,HULL_PORT*G0"), NmeaFault::no_checksum);
   EXPECT_EQ(fault_of("$IIXDR,A,1,D,HULL_PORT*00"), NmeaFault::bad_checksum);
   EXPECT_EQ(fault_of("$II\x01*00"), NmeaFault::bad_character);
-  EXPECT_EQ(fault_of("$IIX*18"), NmeaFault::bad_address);
+  EXPECT_EQ(fault_of("$IIX*58"), NmeaFault::bad_address);
   EXPECT_EQ(fault_of("$" + std::string(90, 'A') + "*00"), NmeaFault::too_long);
 }
 
