@@ -4,6 +4,7 @@ import os
 import shutil
 import signal
 import socket
+import ssl
 import subprocess
 import sys
 import tempfile
@@ -41,7 +42,7 @@ def server_folder():
 class Server:
     """Started anew it keeps port and configuration."""
 
-    def __init__(self, security=False, settings=None):
+    def __init__(self, security=False, tls=False):
         self.folder = server_folder()
         self.directory = tempfile.mkdtemp(prefix="signalk_")
         self.socket = socket.socket()
@@ -50,7 +51,10 @@ class Server:
         self.port = self.socket.getsockname()[1]
         self.token = None
         self.process = None
-        self.write("settings.json", dict(SETTINGS, **(settings or {}),
+        self.certificate = None
+        if tls:
+            self.make_certificate()
+        self.write("settings.json", dict(SETTINGS, ssl=tls,
                                          **({"security": {"strategy": "./tokensecurity"}} if security else {})))
         self.write("defaults.json", {"vessels": {"self": {"uuid": SELF, "name": "barge"}}})
         if security:
@@ -63,6 +67,15 @@ class Server:
                 ["node", os.path.join(self.folder, "node_modules/signalk-server/bin/signalk-generate-token"),
                  "-u", "link", "-e", "1h", "-s", os.path.join(self.directory, "security.json")],
                 capture_output=True, text=True, check=True).stdout.strip()
+
+    def make_certificate(self):
+        """Self-signed, for the loopback address."""
+        self.certificate, key = (os.path.join(self.directory, name) for name in ("ssl-cert.pem", "ssl-key.pem"))
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "1", "-subj", "/CN=barge",
+                        "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", key, "-out", self.certificate],
+                       check=True, capture_output=True)
+        for path in (self.certificate, key):
+            os.chmod(path, 0o600)
 
     def write(self, name, content):
         with open(os.path.join(self.directory, name), "w", encoding="utf-8") as file:
@@ -98,9 +111,12 @@ class Server:
     def get(self, path):
         """Parsed answer; None where there is none."""
         headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
+        scheme, context = "http", None
+        if self.certificate:
+            scheme, context = "https", ssl.create_default_context(cafile=self.certificate)
         try:
-            with urllib.request.urlopen(urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", headers=headers),
-                                        timeout=2.0) as answer:
+            with urllib.request.urlopen(urllib.request.Request(f"{scheme}://127.0.0.1:{self.port}{path}", headers=headers),
+                                        timeout=2.0, context=context) as answer:
                 return json.load(answer)
         except (urllib.error.URLError, OSError, ValueError):
             return None

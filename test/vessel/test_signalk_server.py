@@ -140,6 +140,30 @@ class SecureServerTest(ServerTestCase):
         self.assertNotIn("secret", json.dumps(health) + probe.close())
 
 
+class TlsServerTest(ServerTestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server(security=True, tls=True)
+        cls.addClassCleanup(cls.server.close)
+        cls.server.start()
+
+    def test_a_trusted_certificate_is_taken_and_no_other(self):
+        environment = {"LINK_TOKEN": self.server.token}
+        probe = self.probe(self.server, tls=True, ca_file=self.server.certificate, token_environment="LINK_TOKEN",
+                           environment=environment)
+        probe.send({f"{PREFIX}.height": 3.25})
+        self.wait_for(probe, "confirmed")
+        self.assertEqual(self.server.own(f"{PREFIX}.height")["value"], 3.25)
+        probe.close()
+        # Not trusted; and trusted, but not for this name.
+        for options in ({}, {"ca_file": self.server.certificate, "host": "localhost"}):
+            probe = self.probe(self.server, tls=True, **options)
+            health = eventually(lambda: (lambda h: h if h["failures"] > 1 else None)(probe.health()), "refusals")
+            self.assertIn("TLS: certificate verify failed", health["last_error"])
+            self.assertEqual(health["connections"], 0)
+            probe.close()
+
+
 class RestartTest(ServerTestCase):
     def setUp(self):
         self.server = Server()
