@@ -57,7 +57,7 @@ class VesselLinkTest(unittest.TestCase):
 
     def expect_openings(self, degrees):
         with self.changed:
-            self.assertTrue(self.changed.wait_for(lambda: len(self.openings) >= len(degrees), 10.0), self.openings)
+            self.assertTrue(self.changed.wait_for(lambda: len(self.openings) >= len(degrees), 30.0), self.openings)
         expected = [(port * math.pi / 180.0, starboard * math.pi / 180.0) for port, starboard in degrees]
         self.assertEqual([(message.port, message.starboard) for message in self.openings], expected)
         for message in self.openings:
