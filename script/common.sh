@@ -9,6 +9,7 @@ export PATH="/usr/bin:/bin:/usr/sbin:/sbin:$PATH"
 core_packages=(build-essential ccache cmake ninja-build pkg-config
   libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libyaml-cpp-dev nlohmann-json3-dev
   libopenmpi-dev openmpi-bin
+  libboost-dev libssl-dev python3-nmea2
   libgtest-dev librapidcheck-dev python3-h5py python3-matplotlib python3-numpy
   python3-tqdm python3-yaml)
 ros_packages=(ros-core-dev catkin

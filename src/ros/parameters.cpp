@@ -1,125 +1,17 @@
 #include "geocontainer_mpm/ros/parameters.h"
 
-#include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 #include <limits>
-#include <set>
 
-#include "geocontainer_mpm/error.h"
+#include "parameter_reader.h"
 
 namespace geocontainer_mpm::ros_bridge {
 namespace {
 
 using XmlRpc::XmlRpcValue;
-
-/// Takes values out of the parameter struct by key and remembers which keys are known.
-class Reader {
-public:
-  Reader(const XmlRpcValue& tree, std::string source) : tree_(tree), source_(std::move(source))
-  {
-    if (tree_.valid() && tree_.getType() != XmlRpcValue::TypeStruct)
-      throw InputError(source_, "private parameters", "", "must be a dictionary");
-  }
-
-  void read(const char* key, std::string& value)
-  {
-    if (const auto found = find(key))
-      value = static_cast<std::string&>(expect(key, *found, XmlRpcValue::TypeString, "must be text"));
-  }
-
-  void read(const char* key, bool& value)
-  {
-    if (const auto found = find(key))
-      value = static_cast<bool&>(expect(key, *found, XmlRpcValue::TypeBoolean, "must be true or false"));
-  }
-
-  void read(const char* key, int& value, int lowest, int highest)
-  {
-    const auto found = find(key);
-    if (!found)
-      return;
-    const std::string allowed = fmt::format("must be a whole number from {} to {}", lowest, highest);
-    value = static_cast<int&>(expect(key, *found, XmlRpcValue::TypeInt, allowed));
-    if (value < lowest || value > highest)
-      fail(key, *found, allowed);
-  }
-
-  /// Open below, closed above: (above, highest]. `above` itself is allowed when `closed`.
-  void read(const char* key, double& value, double above, double highest, bool closed = false)
-  {
-    const auto found = find(key);
-    if (!found)
-      return;
-    const std::string allowed = fmt::format("must be a number in {}{}, {}{}", closed ? '[' : '(', above, highest,
-                                            std::isinf(highest) ? ')' : ']');
-    if (found->getType() == XmlRpcValue::TypeInt)
-      value = static_cast<int&>(*found);
-    else
-      value = static_cast<double&>(expect(key, *found, XmlRpcValue::TypeDouble, allowed));
-    const bool high_enough = closed ? value >= above : value > above;
-    if (!std::isfinite(value) || !high_enough || value > highest)
-      fail(key, *found, allowed);
-  }
-
-  void read(const char* key, std::vector<std::string>& values)
-  {
-    const auto found = find(key);
-    if (!found)
-      return;
-    const char* const allowed = "must be a list of texts of the form dotted.key=value";
-    expect(key, *found, XmlRpcValue::TypeArray, allowed);
-    for (int i = 0; i < found->size(); ++i)
-      values.push_back(static_cast<std::string&>(expect(key, (*found)[i], XmlRpcValue::TypeString, allowed)));
-  }
-
-  void refuse_unknown()
-  {
-    if (!tree_.valid())
-      return;
-    for (auto& entry : tree_)
-      if (known_.count(entry.first) == 0)
-        fail(entry.first, entry.second, "is not a parameter of this node; known are " + joined());
-  }
-
-  [[noreturn]] void fail(const std::string& key, const XmlRpcValue& value, const std::string& allowed) const
-  {
-    std::string text = value.valid() ? value.toXml() : "";
-    if (value.getType() == XmlRpcValue::TypeString)
-      text = static_cast<std::string>(XmlRpcValue(value));
-    throw InputError(source_, "~" + key, text, allowed);
-  }
-
-private:
-  XmlRpcValue* find(const char* key)
-  {
-    known_.insert(key);
-    return tree_.valid() && tree_.hasMember(key) ? &tree_[key] : nullptr;
-  }
-
-  XmlRpcValue& expect(const std::string& key, XmlRpcValue& value, XmlRpcValue::Type type,
-                      const std::string& allowed) const
-  {
-    if (value.getType() != type)
-      fail(key, value, allowed);
-    return value;
-  }
-
-  std::string joined() const
-  {
-    std::string text;
-    for (const std::string& key : known_)
-      text += (text.empty() ? "" : ", ") + key;
-    return text;
-  }
-
-  XmlRpcValue tree_;
-  std::string source_;
-  std::set<std::string> known_;
-};
+using Reader = ParameterReader;
 
 void require_text(const Reader& reader, const char* key, const std::string& value)
 {

@@ -95,13 +95,13 @@ def executable(name):
     return found
 
 
-def start_node(name, parameters):
-    """release_node under this name, with exactly these private parameters."""
+def start_node(name, parameters, program="release_node"):
+    """The program under this name, with exactly these private parameters."""
     if rospy.has_param("/" + name):
         rospy.delete_param("/" + name)
     for key, value in parameters.items():
         rospy.set_param(f"/{name}/{key}", value)
-    return Process([executable("release_node"), f"__name:={name}"])
+    return Process([executable(program), f"__name:={name}"])
 
 
 def play(bag, *options):
