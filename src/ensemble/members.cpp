@@ -103,32 +103,62 @@ const std::vector<Figure>& figures()
   return all;
 }
 
+std::size_t peak_tension_figure()
+{
+  return peak_tension;
+}
+
+std::size_t peak_utilisation_figure()
+{
+  return peak_utilisation;
+}
+
+std::size_t width_figure()
+{
+  return width;
+}
+
 std::size_t release_time_figure()
 {
   return release_time;
 }
 
-Member run_member(const scene::SceneDescription& scene, const std::function<void(scene::Simulation&)>& open,
-                  const std::function<bool()>& stop)
+Member advance_member(scene::Simulation& simulation, const std::function<bool()>& stop)
+{
+  Member member;
+  advance_to_end(simulation, stop, member);
+  const scene::StatusFrame status = simulation.status();
+  member.outcome = status.outcome;
+  member.figures = figures_of(status);
+  member.ruptures = status.ruptures;
+  member.digest = simulation.digest();
+  return member;
+}
+
+Member failed_member(const std::string& why)
 {
   Member member;
   member.figures.resize(figures().size());
-  if (stop())
+  member.ending = Ending::failed;
+  member.why = why;
+  return member;
+}
+
+Member run_member(const scene::SceneDescription& scene, const std::function<void(scene::Simulation&)>& open,
+                  const std::function<bool()>& stop)
+{
+  if (stop()) {
+    Member member;
+    member.figures.resize(figures().size());
     return member;
+  }
   try {
     scene::Simulation simulation(scene, 1);
     open(simulation);
-    advance_to_end(simulation, stop, member);
-    const scene::StatusFrame status = simulation.status();
-    member.outcome = status.outcome;
-    member.figures = figures_of(status);
-    member.ruptures = status.ruptures;
-    member.digest = simulation.digest();
+    return advance_member(simulation, stop);
   } catch (const std::exception& error) {  // a scene that cannot be built, or no memory
-    member.ending = Ending::failed;
-    member.why = error.what();
+    return failed_member(error.what());
   }
-  return member;
 }
 
 std::vector<Member> run_members(std::size_t count, int threads, const std::function<Member(std::size_t)>& run,

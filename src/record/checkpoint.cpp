@@ -217,7 +217,7 @@ scene::Simulation read_run(const Archive<true>& file, const SceneDescription& sc
   archive.group("run", [&](auto& inside) { StateAccess::list(inside, *run); });
   auto state = StateAccess::fresh_state(*run);
   archive.group("state", [&](auto& inside) { StateAccess::list_checkpoint(inside, state); });
-  StateAccess::go_on(*run, std::move(state));
+  run->go_on(std::move(state));
   return StateAccess::wrap(std::move(run));
 }
 
@@ -239,7 +239,7 @@ std::string save_checkpoint(const scene::Simulation& simulation, std::uint64_t o
   const QuietHdf5 quiet;
   try {
     const std::string bytes = StateAccess::with_run(simulation, [&](auto& run) {
-      auto state = StateAccess::right_state(run);
+      auto state = run.right_state();
       return state ? file_bytes(run, *state, opening) : std::string();
     });
     if (bytes.empty())

@@ -304,27 +304,6 @@ struct StateAccess {
     archive.group("fresh_progress", [&fresh = fresh_progress](auto& inside) { list_progress(inside, fresh); });
   }
 
-  /// The state to save, if there is one: at rest no steps are taken and none need be undone.
-  template <int Dim>
-  static std::optional<typename scene::Run<Dim>::Checkpoint> right_state(const scene::Run<Dim>& run)
-  {
-    if (run.progress.resting && run.checkpoint_)
-      return typename scene::Run<Dim>::Checkpoint{ run.model.state(), run.progress, run.watch, run.probes,
-                                                   run.model.energy() };
-    return run.checkpoint_;
-  }
-
-  /// Goes on from a state.
-  template <int Dim>
-  static void go_on(scene::Run<Dim>& run, typename scene::Run<Dim>::Checkpoint state)
-  {
-    run.model.restore(state.model);
-    run.progress = state.progress;
-    run.watch = state.watch;
-    run.probes = state.probes;
-    run.checkpoint_ = std::move(state);
-    run.steps_since_checkpoint_ = 0;
-  }
   /// One to read a state into, with all that the scene makes.
   template <int Dim>
   static typename scene::Run<Dim>::Checkpoint fresh_state(const scene::Run<Dim>& run)

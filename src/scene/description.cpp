@@ -11,6 +11,16 @@
 
 namespace geocontainer_mpm::scene {
 
+double HullDescription::full_opening() const
+{
+  if (full_opening_rad)
+    return *full_opening_rad;
+  double largest = 0.0;
+  for (const OpeningRow& row : opening_table)
+    largest = std::max({ largest, row.port_rad, row.starboard_rad });
+  return largest > 0.0 ? largest : signal.max_angle_rad;
+}
+
 namespace {
 
 using grammar::joined;

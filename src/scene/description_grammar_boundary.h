@@ -182,6 +182,10 @@ void describe(V& v, HullDescription& h)
             "`signal`; empty: the hull stays closed" },
           h.opening_table);
   v.section({ "signal", optional, "", "how logged angles are judged and filtered" }, h.signal);
+  v.value({ "full_opening_rad", optional, "rad",
+            "where the halves stop, as a forecast assumes; absent: the largest angle of `opening_table`, without one "
+            "`signal.max_angle_rad`" },
+          h.full_opening_rad, positive());
 }
 
 template <class V>

@@ -37,6 +37,9 @@ void check_hull(const HullDescription& hull)
            "must run from the bottom up to the deck, so that the free side is on the left");
   check_rounding("hull.lip_radius_m", hull.lip_radius_m, hull.port_section_m, "port_section_m");
   check_opening_table(hull);
+  if (hull.full_opening() > hull.signal.max_angle_rad)
+    refuse("hull.full_opening_rad", number_text(hull.full_opening()),
+           fmt::format("must not exceed hull.signal.max_angle_rad = {}", number_text(hull.signal.max_angle_rad)));
 }
 
 void check_surface(const std::string& key, const SurfaceDescription& surface)

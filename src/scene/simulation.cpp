@@ -162,6 +162,23 @@ Simulation::Simulation(const SceneDescription& scene, int threads) : state_(std:
   else
     state_->run = std::make_unique<Run<2>>(scene, threads);
 }
+namespace {
+
+template <int Dim>
+std::unique_ptr<Run<Dim>> run_from(const SceneDescription& scene, int threads, const Kept<Dim>& kept)
+{
+  auto run = std::make_unique<Run<Dim>>(scene, threads, typename Run<Dim>::Unsettled{});
+  run->go_on_from(kept);
+  return run;
+}
+
+}  // namespace
+
+Simulation::Simulation(const SceneDescription& scene, int threads, const Snapshot& from)
+    : state_(std::make_unique<State>())
+{
+  std::visit([&](const auto& kept) { state_->run = run_from(scene, threads, kept); }, from.state_->kept);
+}
 Simulation::Simulation(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -185,6 +202,29 @@ void Simulation::use_scene_opening()
 Advance Simulation::advance(int max_steps)
 {
   return state_->with([&](auto& run) { return advance_by(run, max_steps); });
+}
+
+std::optional<Snapshot> Simulation::snapshot() const
+{
+  return state_->with([](const auto& run) -> std::optional<Snapshot> {
+    auto kept = run.keep();
+    if (!kept)
+      return std::nullopt;
+    return Snapshot(std::make_shared<const Snapshot::State>(Snapshot::State{ std::move(*kept) }));
+  });
+}
+
+Snapshot::Snapshot(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+
+double Snapshot::time_s() const
+{
+  return std::visit([](const auto& kept) { return kept.now.progress.time_s; }, state_->kept);
+}
+
+const barge::OpeningSignal& Snapshot::opening() const
+{
+  return std::visit(
+      [](const auto& kept) -> const auto& { return kept.opening; }, state_->kept);
 }
 
 void Simulation::reset()

@@ -386,6 +386,45 @@ Advance Run<Dim>::undo(const Failure& failure)
   return Advance::stopped;
 }
 
+template <int Dim>
+std::optional<typename Run<Dim>::Checkpoint> Run<Dim>::right_state() const
+{
+  if (progress.resting && checkpoint_)
+    return Checkpoint{ model.state(), progress, watch, probes, model.energy() };
+  return checkpoint_;
+}
+
+template <int Dim>
+void Run<Dim>::go_on(Checkpoint state)
+{
+  model.restore(state.model);
+  progress = state.progress;
+  watch = state.watch;
+  probes = state.probes;
+  checkpoint_ = std::move(state);
+  steps_since_checkpoint_ = 0;
+}
+
+template <int Dim>
+std::optional<Kept<Dim>> Run<Dim>::keep() const
+{
+  std::optional<Checkpoint> now = right_state();
+  if (!now)
+    return std::nullopt;
+  return Kept<Dim>{ std::move(*now), opening, settled, fresh_probes, fresh_progress, explained_speed_ };
+}
+
+template <int Dim>
+void Run<Dim>::go_on_from(const Kept<Dim>& kept)
+{
+  opening = kept.opening;
+  settled = kept.settled;
+  fresh_probes = kept.fresh_probes;
+  fresh_progress = kept.fresh_progress;
+  explained_speed_ = kept.explained_speed;
+  go_on(kept.now);
+}
+
 template struct Run<2>;
 template struct Run<3>;
 

@@ -16,6 +16,9 @@
 
 namespace geocontainer_mpm::scene {
 
+template <int Dim>
+struct Kept;
+
 /// A run in plane strain or in space.
 template <int Dim>
 struct Run {
@@ -55,10 +58,16 @@ struct Run {
   struct Unsettled {};
   Run(const SceneDescription& description, int threads, Unsettled);
 
+  /// The state to keep, if there is one: at rest no steps are taken and none need be undone.
+  std::optional<Checkpoint> right_state() const;
+  void go_on(Checkpoint state);
+
   barge::OpeningSignalParameters signal_parameters() const;
   /// Of a scene of which half is computed, the mean of both halves.
   barge::OpeningAngles angles_at(double time_s) const;
   void begin();
+  std::optional<Kept<Dim>> keep() const;
+  void go_on_from(const Kept<Dim>& kept);
   bool step_once(Advance& result);
   bool rest_on(Advance& result);
 
@@ -96,6 +105,21 @@ private:
   double explained_speed_ = 0.0;  ///< m/s, without rigid surfaces
   std::optional<Checkpoint> checkpoint_;
   int steps_since_checkpoint_ = 0;
+};
+
+/// A state of a run and all else that another one needs to go on from it.
+template <int Dim>
+struct Kept {
+  typename Run<Dim>::Checkpoint now;
+  barge::OpeningSignal opening;
+  ModelState<Dim> settled;
+  Probes<Dim> fresh_probes;
+  typename Run<Dim>::Progress fresh_progress;
+  double explained_speed;
+};
+
+struct Snapshot::State {
+  std::variant<Kept<2>, Kept<3>> kept;
 };
 
 struct Simulation::State {

@@ -29,8 +29,11 @@ struct Figure {
 };
 /// Peak tension and utilisation, release time, residual tension, final width and height.
 const std::vector<Figure>& figures();
-/// Index in figures() of the release time, which a member that was not released lacks.
+/// Indices in figures(). A member that was not released lacks the release time.
+std::size_t peak_tension_figure();
+std::size_t peak_utilisation_figure();
 std::size_t release_time_figure();
+std::size_t width_figure();
 
 struct Member {
   Ending ending = Ending::interrupted;
@@ -40,6 +43,10 @@ struct Member {
   std::size_t ruptures = 0;                    ///< pieces of sheets that broke
   std::uint64_t digest = 0;
 };
+
+/// From where it is to the end of its scene, or until `stop()` says so.
+Member advance_member(scene::Simulation& simulation, const std::function<bool()>& stop);
+Member failed_member(const std::string& why);
 
 /// Runs one member on one thread, until `stop()` says so. `open` gives the run its opening. Never throws: what goes
 /// wrong is in the result.

@@ -35,8 +35,8 @@ struct Forecast {
   std::vector<Instant> instants;
   /// At the end; its peak, release and rupture are those of the whole run, what lies behind included.
   scene::StatusFrame status;
-  std::string stopped;       ///< why the solver had to stop; empty: it did not
-  double cost_s = 0.0;       ///< processor time it took
+  std::string stopped;  ///< why the solver had to stop; empty: it did not
+  double cost_s = 0.0;  ///< processor time it took
 };
 
 }  // namespace geocontainer_mpm::forecast

@@ -279,6 +279,10 @@ struct HullDescription {
   std::optional<Vec2> along_m;
   std::vector<OpeningRow> opening_table;  ///< used when no log is given; empty: stays closed
   barge::OpeningSignalParameters signal;  ///< how logged angles are judged and filtered
+  /// Where the halves stop, rad, > 0. Not given: the largest angle of opening_table, without one signal.max_angle_rad.
+  std::optional<double> full_opening_rad;
+
+  double full_opening() const;  ///< rad
 };
 
 /// Prescribed rigid motion: x = pivot + R(angle) (X - pivot) + displacement.

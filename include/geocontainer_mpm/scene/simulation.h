@@ -54,11 +54,29 @@ struct Failure {
   double time_s = 0.0;
 };
 
+/// The state of a run at one instant and the opening it knows, from which others go on. Does not change any more and is
+/// cheap to hand over.
+class Snapshot {
+public:
+  double time_s() const;
+  const barge::OpeningSignal& opening() const;
+
+private:
+  friend class Simulation;
+
+  struct State;
+  explicit Snapshot(std::shared_ptr<const State> state);
+  std::shared_ptr<const State> state_;
+};
+
 class Simulation {
 public:
   /// Builds the scene (and settles it where bodies ask for gravity). Throws InputError for a bad scene or
   /// threads < 1.
   Simulation(const SceneDescription& scene, int threads);
+  /// Goes on from a snapshot, bit for bit as the run it was taken of would. `scene` must be that run's, but for another
+  /// `time.end_s`. May be called while that run goes on. reset() leads back to the snapshot's own beginning.
+  Simulation(const SceneDescription& scene, int threads, const Snapshot& from);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -73,6 +91,10 @@ public:
 
   /// Does at most `max_steps` steps, never past the known opening; returns early at an output instant.
   Advance advance(int max_steps = 64);
+
+  /// The last state that the run has found right: at rest the present one, else at most a few dozen steps back. None
+  /// before the first frame. Costs a copy of the state.
+  std::optional<Snapshot> snapshot() const;
 
   /// Back to the state after construction, bit for bit, with an empty opening signal.
   void reset();

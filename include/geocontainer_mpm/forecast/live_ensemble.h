@@ -1,0 +1,72 @@
+#pragma once
+/// An ensemble whose members follow the log as the live run does.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geocontainer_mpm/ensemble/distribution.h"
+#include "geocontainer_mpm/ensemble/members.h"
+#include "geocontainer_mpm/forecast/advice.h"
+#include "geocontainer_mpm/scene/simulation.h"
+
+namespace geocontainer_mpm::forecast {
+
+/// The members that are drawn.
+struct EnsemblePlan {
+  std::uint64_t seed = 0;
+  std::vector<ensemble::Input> inputs;
+  std::vector<std::vector<std::string>> values;  ///< a row a member
+  std::vector<scene::SceneDescription> scenes;   ///< a member each
+};
+
+/// Draws `members` from the distributions of a file and reads the scene for each, `overrides` first. Throws InputError,
+/// also for an override of what is drawn.
+EnsemblePlan draw_members(const std::string& scene, const std::vector<std::string>& overrides,
+                          const std::string& distributions, std::size_t members, std::uint64_t seed);
+
+/// What an ensemble says.
+struct EnsembleForecast {
+  std::uint64_t run = 0;  ///< of the live run it belongs to
+  double from_s = 0.0;    ///< simulated time of the newest opening that the members know
+  std::uint64_t seed = 0;
+  std::vector<std::string> inputs;  ///< scene keys
+  ensemble::Summary summary;
+  double cost_s = 0.0;  ///< processor time of all members
+  Advice advice;
+};
+
+/// A member has another fill and another geotextile than the live run: that one's state is not a state of it. So every
+/// member has a run of its own that follows the log, and goes ahead from there.
+class LiveEnsemble {
+public:
+  LiveEnsemble(EnsemblePlan plan, int threads);
+
+  const EnsemblePlan& plan() const { return plan_; }
+  void reset();  ///< another log begins
+
+  /// Every member follows `so_far` as far as it is known, and from there goes on under `ahead`, which continues it and
+  /// is finished, for `horizon_s`. A member that could not be built or had to stop says so in its place.
+  std::vector<ensemble::Member> run_ahead(const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
+                                          double horizon_s, const std::function<bool()>& stop);
+  double cost_s() const { return cost_s_; }  ///< processor time of the last run_ahead(), all threads
+
+private:
+  struct Follower {
+    std::optional<scene::Simulation> run;
+    std::string failed;  ///< why it could not be built or had to stop
+  };
+
+  ensemble::Member member_ahead(std::size_t i, const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
+                                double horizon_s, const std::function<bool()>& stop);
+  void follow(std::size_t i, const barge::OpeningSignal& so_far, const std::function<bool()>& stop);
+
+  EnsemblePlan plan_;
+  int threads_;
+  std::vector<Follower> followers_;
+  double cost_s_ = 0.0;
+};
+
+}  // namespace geocontainer_mpm::forecast

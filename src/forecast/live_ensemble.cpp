@@ -1,0 +1,115 @@
+#include "geocontainer_mpm/forecast/live_ensemble.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <utility>
+
+#include "geocontainer_mpm/ensemble/sampling.h"
+#include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/forecast/run_ahead.h"
+
+namespace geocontainer_mpm::forecast {
+namespace {
+
+/// The members follow a log for as long as it goes on: eleven days.
+constexpr double no_end_s = 1e6;
+
+}  // namespace
+
+EnsemblePlan draw_members(const std::string& scene, const std::vector<std::string>& overrides,
+                          const std::string& distributions, std::size_t members, std::uint64_t seed)
+{
+  EnsemblePlan plan;
+  plan.seed = seed;
+  plan.inputs = ensemble::load_inputs(distributions);
+  for (const std::string& assignment : overrides)
+    for (const ensemble::Input& input : plan.inputs)
+      if (assignment.compare(0, input.key.size() + 1, input.key + "=") == 0)
+        throw InputError("", "scene_overrides", assignment, "is drawn by " + distributions);
+  plan.values = ensemble::draw(plan.inputs, members, seed);
+  for (const std::vector<std::string>& row : plan.values) {
+    std::vector<std::string> all = overrides;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      all.push_back(plan.inputs[i].key + "=" + row[i]);
+    plan.scenes.push_back(scene::load_scene(scene, all));
+    plan.scenes.back().time.end_s = no_end_s;
+  }
+  return plan;
+}
+
+LiveEnsemble::LiveEnsemble(EnsemblePlan plan, int threads)
+    : plan_(std::move(plan)), threads_(threads), followers_(plan_.scenes.size())
+{
+}
+
+void LiveEnsemble::reset()
+{
+  for (Follower& follower : followers_) {
+    if (follower.run)
+      follower.run->reset();
+    follower.failed.clear();
+  }
+}
+
+/// As far as the log is known. The first time the member is built, which settles it.
+void LiveEnsemble::follow(std::size_t i, const barge::OpeningSignal& so_far, const std::function<bool()>& stop)
+{
+  using scene::Advance;
+  Follower& follower = followers_[i];
+  if (!follower.run)
+    follower.run.emplace(plan_.scenes[i], 1);
+  follower.run->opening() = so_far;
+  Advance result = Advance::stepped;
+  while ((result == Advance::stepped || result == Advance::frame_due) && !stop())
+    result = follower.run->advance();
+  if (result == Advance::stopped)
+    follower.failed = fmt::format("the solver stopped at {:.4f} s: {}", follower.run->failure().time_s,
+                                  follower.run->failure().reason);
+}
+
+ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningSignal& so_far,
+                                            const barge::OpeningSignal& ahead, double horizon_s,
+                                            const std::function<bool()>& stop)
+{
+  Follower& follower = followers_[i];
+  try {
+    if (follower.failed.empty())
+      follow(i, so_far, stop);
+    if (!follower.failed.empty())
+      return ensemble::failed_member(follower.failed);
+    const std::optional<scene::Snapshot> now = follower.run->snapshot();
+    if (!now)
+      return ensemble::failed_member("there is no log yet");
+    scene::SceneDescription scene = plan_.scenes[i];
+    scene.time.end_s = now->time_s() + horizon_s;
+    scene::Simulation run(scene, 1, *now);
+    run.opening() = ahead;
+    return ensemble::advance_member(run, stop);
+  } catch (const std::exception& error) {  // a scene that cannot be built, or no memory
+    follower.failed = error.what();
+    return ensemble::failed_member(error.what());
+  }
+}
+
+std::vector<ensemble::Member> LiveEnsemble::run_ahead(const barge::OpeningSignal& so_far,
+                                                      const barge::OpeningSignal& ahead, double horizon_s,
+                                                      const std::function<bool()>& stop)
+{
+  std::mutex adding;
+  double cost = 0.0;
+  std::vector<ensemble::Member> members = ensemble::run_members(
+      followers_.size(), threads_,
+      [&](std::size_t i) {
+        const double began = thread_cpu_time_s();
+        ensemble::Member member = member_ahead(i, so_far, ahead, horizon_s, stop);
+        const std::lock_guard<std::mutex> lock(adding);
+        cost += thread_cpu_time_s() - began;
+        return member;
+      },
+      [] {});
+  cost_s_ = cost;
+  return members;
+}
+
+}  // namespace geocontainer_mpm::forecast
