@@ -106,11 +106,12 @@ double AssumedOpening::departure(double time_s, const OpeningAngles& measured) c
                   std::abs(measured.starboard_rad - assumed.starboard_rad));
 }
 
-barge::OpeningSignal AssumedOpening::continue_from(const barge::OpeningSignal& so_far) const
+barge::OpeningSignal AssumedOpening::continue_from(const barge::OpeningSignal& so_far, double settle_s) const
 {
   barge::OpeningSignal opening = so_far;
   const std::int64_t origin_ns = so_far.origin_ns(), last_ns = so_far.last_accepted().stamp_ns - origin_ns;
-  const std::int64_t end_ns = std::max<std::int64_t>(last_ns, std::llround(end_s() * 1e9)) + sample_interval_ns;
+  const std::int64_t end_ns =
+      std::max<std::int64_t>(last_ns, std::llround((end_s() + settle_s) * 1e9)) + sample_interval_ns;
   for (std::int64_t time_ns = last_ns + sample_interval_ns; time_ns <= end_ns; time_ns += sample_interval_ns)
     opening.add({ origin_ns + time_ns, at(static_cast<double>(time_ns) / 1e9) });
   opening.finish();

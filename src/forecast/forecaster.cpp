@@ -200,21 +200,27 @@ std::optional<Forecaster::Job> Forecaster::begin(Lock& lock, Task& task)
   task.computing = assume(*state, trend);
   task.give_up = quit_.load();
   task.due = Clock::now() + duration(&task == &forecasting_ ? settings_.period_s : settings_.ensemble_period_s);
-  return Job{ run_, *state, *task.computing, trend };
+  return Job{ run_, *state, *task.computing, recent_.newest().time_s };
 }
 
-/// What was computed is published from now on, unless it was given up.
-void Forecaster::finish(Task& task, const Job& job, bool done)
+/// What was computed is published from now on, unless it was given up. Returns the time of the newest measurement.
+double Forecaster::finish(Task& task, const Job& job, bool done)
 {
   const Lock lock(mutex_);
   if (!done || run_ != job.run) {
     task.computing.reset();
-    return;
+    return job.newest_s;
   }
   task.published = std::exchange(task.computing, std::nullopt);
   task.from_s = job.state.time_s();
   const barge::OpeningPoint& newest = recent_.newest();
   task.stale = task.published && task.published->departure(newest.time_s, newest.angles) > settings_.tolerance_rad;
+  return newest.time_s;
+}
+
+barge::OpeningSignal Forecaster::ahead(const AssumedOpening& assumed, const scene::Snapshot& state) const
+{
+  return assumed.continue_from(state.opening(), scene_.hull ? scene_.hull->signal.smoothing_time_s : 0.0);
 }
 
 void Forecaster::run_forecasts()
@@ -223,7 +229,8 @@ void Forecaster::run_forecasts()
   Lock lock(mutex_);
   while (wait_until_due(lock, forecasting_, [] { return false; })) {
     if (forecasting_.stale && last_forecast_) {
-      const Forecast stale = *std::exchange(last_forecast_, std::nullopt);
+      Forecast stale = *std::exchange(last_forecast_, std::nullopt);
+      stale.newest_s = recent_.newest().time_s;
       lock.unlock();
       hooks_.forecast(stale, true);
       lock.lock();
@@ -233,11 +240,13 @@ void Forecaster::run_forecasts()
       continue;
     lock.unlock();
     std::optional<Forecast> forecast =
-        forecast::run_ahead(scene_, job->state, job->assumed.continue_from(job->state.opening()), settings_.horizon_s,
+        forecast::run_ahead(scene_, job->state, ahead(job->assumed, job->state), settings_.horizon_s,
                             settings_.interval_s, [this] { return forecasting_.give_up.load(); });
-    finish(forecasting_, *job, forecast.has_value());
+    const double newest_s = finish(forecasting_, *job, forecast.has_value());
     if (forecast) {
       forecast->run = job->run;
+      forecast->origin_ns = job->state.opening().origin_ns();
+      forecast->newest_s = newest_s;
       forecast->assumption = job->assumed.assumption();
       hooks_.forecast(*forecast, false);
     }
@@ -280,6 +289,7 @@ void Forecaster::pass_ensemble(Lock& lock)
   finish(ensembling_, *job, done);
   if (done) {
     last_ensemble_.run = job->run;
+    last_ensemble_.origin_ns = job->state.opening().origin_ns();
     last_ensemble_.from_s = job->state.opening().known_until_s();
     last_ensemble_.seed = ensemble_->plan().seed;
     last_ensemble_.inputs.clear();
@@ -295,7 +305,7 @@ void Forecaster::pass_ensemble(Lock& lock)
 
 std::vector<ensemble::Member> Forecaster::members_ahead(const scene::Snapshot& state, const AssumedOpening& assumed)
 {
-  return ensemble_->run_ahead(state.opening(), assumed.continue_from(state.opening()), settings_.horizon_s,
+  return ensemble_->run_ahead(state.opening(), ahead(assumed, state), settings_.horizon_s,
                               [this] { return ensembling_.give_up.load(); });
 }
 

@@ -76,8 +76,7 @@ void follow(LiveRun& live, Forecaster& forecaster, double until_s)
 {
   while (live.measured_s() < until_s - 1e-9) {
     live.follow();
-    const double angle = opening_at(live.measured_s());
-    forecaster.measured(live.measured_s(), { angle, angle });
+    forecaster.measured(live.measured_s(), planned().at(live.measured_s()));
   }
 }
 
@@ -109,7 +108,7 @@ TEST(Forecaster, ForecastsGoesStaleAndForecastsAgain)
   EXPECT_FALSE(received.forecasts()[2].stale);
   EXPECT_EQ(forecast.status.outcome, scene::Outcome::released);
   EXPECT_EQ(forecast.assumption, Assumption::measured);
-  follow(live, forecaster, opens_at_s + opens_within_s);
+  follow(live, forecaster, log_end_s);
   live.simulation().opening().finish();
   live.catch_up();
   EXPECT_NEAR(forecast.status.release_time_s, live.simulation().status().release_time_s, 0.1);
@@ -131,10 +130,10 @@ TEST(Forecaster, PrefersThePlan)
   const Forecast forecast = received.forecasts().back().forecast;
   EXPECT_EQ(forecast.assumption, Assumption::plan);
   EXPECT_EQ(forecast.status.outcome, scene::Outcome::released);  // before the hull has moved
-  follow(live, forecaster, opens_at_s + opens_within_s);
+  follow(live, forecaster, log_end_s);
   live.simulation().opening().finish();
   live.catch_up();
-  EXPECT_NEAR(forecast.status.release_time_s, live.simulation().status().release_time_s, 1e-6);
+  EXPECT_NEAR(forecast.status.release_time_s, live.simulation().status().release_time_s, 1e-9);
 }
 
 TEST(Forecaster, IsSilentAboutALogThatIsOver)

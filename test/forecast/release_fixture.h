@@ -1,7 +1,7 @@
 #pragma once
 /// The default release on a coarse grid, with a hull that opens within two seconds, fed as a log would.
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,6 +12,8 @@ namespace geocontainer_mpm::forecast {
 
 constexpr double sample_interval_s = 0.05;
 constexpr double opens_at_s = 0.5, opens_within_s = 2.0, full_rad = 0.365;
+constexpr double log_end_s =
+    3.55;  ///< a smoothing time and a sample after the hull has stopped, as a run ahead assumes
 
 inline std::string release_path()
 {
@@ -33,15 +35,19 @@ inline scene::SceneDescription coarse_release()
   return scene::load_scene(release_path(), coarse_overrides());
 }
 
-inline double opening_at(double time_s)
+/// The whole opening as it is planned, and measured too.
+inline const AssumedOpening& planned()
 {
-  return full_rad * std::clamp((time_s - opens_at_s) / opens_within_s, 0.0, 1.0);
+  static const AssumedOpening opening = AssumedOpening::planned(
+      { { 0.0, { 0.0, 0.0 } }, { opens_at_s, { 0.0, 0.0 } }, { opens_at_s + opens_within_s, { full_rad, full_rad } } },
+      coarse_release().hull->signal, "plan");
+  return opening;
 }
 
 inline barge::OpeningSample sample_at(int index)
 {
-  const double angle = opening_at(index * sample_interval_s);
-  return { 1'000'000'000'000 + index * std::int64_t{ 50'000'000 }, { angle, angle } };
+  const std::int64_t time_ns = index * std::int64_t{ 50'000'000 };
+  return { 1'000'000'000'000 + time_ns, planned().at(static_cast<double>(time_ns) / 1e9) };
 }
 
 /// A log that is followed sample by sample.
@@ -64,7 +70,7 @@ public:
   }
   void follow_until(double time_s)
   {
-    while (next_ * sample_interval_s <= time_s)
+    while (next_ * sample_interval_s <= time_s + 1e-9)
       follow();
   }
   scene::Simulation& simulation() { return simulation_; }
@@ -74,13 +80,5 @@ private:
   scene::Simulation simulation_;
   int next_ = 0;
 };
-
-/// The whole opening as it was planned.
-inline std::vector<barge::OpeningPoint> plan_points()
-{
-  return { { 0.0, { 0.0, 0.0 } },
-           { opens_at_s, { 0.0, 0.0 } },
-           { opens_at_s + opens_within_s, { full_rad, full_rad } } };
-}
 
 }  // namespace geocontainer_mpm::forecast

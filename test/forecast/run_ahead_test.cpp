@@ -18,9 +18,9 @@ TEST(RunAhead, UnderTheOpeningThatComesFindsTheSameToTheLastBit)
   live.follow_until(1.5);
   const std::optional<scene::Snapshot> now = live.simulation().snapshot();
   ASSERT_TRUE(now);
-  const AssumedOpening plan = AssumedOpening::planned(plan_points(), scene.hull->signal, "plan");
+  const AssumedOpening& plan = planned();
   const std::optional<Forecast> forecast =
-      run_ahead(scene, *now, plan.continue_from(now->opening()), 20.0, 0.25, never);
+      run_ahead(scene, *now, plan.continue_from(now->opening(), 1.0), 20.0, 0.25, never);
   ASSERT_TRUE(forecast);
   EXPECT_EQ(forecast->stopped, "");
   EXPECT_LT(forecast->from_s, 1.5);
@@ -28,7 +28,7 @@ TEST(RunAhead, UnderTheOpeningThatComesFindsTheSameToTheLastBit)
   EXPECT_GT(forecast->cost_s, 0.0);
 
   // The live run has not noticed, and comes to the same.
-  live.follow_until(opens_at_s + opens_within_s);
+  live.follow_until(log_end_s);
   live.simulation().opening().finish();
   live.catch_up();
   const scene::StatusFrame status = live.simulation().status();
@@ -52,15 +52,15 @@ TEST(RunAhead, AtTheRateMeasuredHalfWayNamesTheRelease)
   LiveRun live(scene);
   RecentSamples recent(0.5);
   for (int i = 0; i <= 30; ++i)
-    recent.add(sample_at(i).stamp_ns / 1e9 - sample_at(0).stamp_ns / 1e9, sample_at(i).angles);
+    recent.add(i * sample_interval_s, sample_at(i).angles);
   live.follow_until(1.5);
   const RecentSamples::Trend trend = recent.trend();
   const AssumedOpening assumed =
       AssumedOpening::at_rate(recent.newest().time_s, trend.angles, trend.rate, scene.hull->full_opening());
   const std::optional<scene::Snapshot> now = live.simulation().snapshot();
   const std::optional<Forecast> forecast =
-      run_ahead(scene, *now, assumed.continue_from(now->opening()), 20.0, 0.25, never);
-  live.follow_until(opens_at_s + opens_within_s);
+      run_ahead(scene, *now, assumed.continue_from(now->opening(), 1.0), 20.0, 0.25, never);
+  live.follow_until(log_end_s);
   live.simulation().opening().finish();
   live.catch_up();
   // The log is a straight line but for its end, which the filter rounds: what the issue asks of a real one.
@@ -76,10 +76,10 @@ TEST(RunAhead, OfAClosedHullIsOverAtOnceAndOfNoneIsNothing)
   const std::optional<scene::Snapshot> now = live.simulation().snapshot();
   const AssumedOpening closed = AssumedOpening::at_rate(0.4, {}, {}, full_rad);
   const std::optional<Forecast> forecast =
-      run_ahead(scene, *now, closed.continue_from(now->opening()), 60.0, 0.25, never);
+      run_ahead(scene, *now, closed.continue_from(now->opening(), 1.0), 60.0, 0.25, never);
   EXPECT_EQ(forecast->status.outcome, scene::Outcome::waiting);
   EXPECT_LT(forecast->until_s, 10.0);  // at rest for good
-  EXPECT_FALSE(run_ahead(scene, *now, closed.continue_from(now->opening()), 60.0, 0.25, [] { return true; }));
+  EXPECT_FALSE(run_ahead(scene, *now, closed.continue_from(now->opening(), 1.0), 60.0, 0.25, [] { return true; }));
 }
 
 }  // namespace

@@ -27,9 +27,10 @@ public:
   /// Larger of both halves' departures from it, rad.
   double departure(double time_s, const barge::OpeningAngles& measured) const;
 
-  /// The history `so_far` as if samples of this opening were measured next, to its end; finished. What the filter of
-  /// the samples does to a measured opening it does to this one too. `so_far` must not be empty.
-  barge::OpeningSignal continue_from(const barge::OpeningSignal& so_far) const;
+  /// The history `so_far` as if samples of this opening were measured next, until `settle_s` after its end (the
+  /// filter's smoothing time); finished. What the filter does to a measured opening it does to this one too. `so_far`
+  /// must not be empty.
+  barge::OpeningSignal continue_from(const barge::OpeningSignal& so_far, double settle_s) const;
 
 private:
   AssumedOpening(Assumption assumption, std::vector<barge::OpeningPoint> points);

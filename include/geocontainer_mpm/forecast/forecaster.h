@@ -75,7 +75,7 @@ private:
     std::uint64_t run;
     scene::Snapshot state;
     AssumedOpening assumed;
-    RecentSamples::Trend trend;
+    double newest_s;  ///< time of the newest measurement
   };
 
   void run_forecasts();
@@ -87,8 +87,9 @@ private:
   bool wait_until_due(Lock& lock, const Task& task, const std::function<bool()>& also);
   std::optional<scene::Snapshot> fetch_state(Lock& lock);
   std::optional<Job> begin(Lock& lock, Task& task);
-  void finish(Task& task, const Job& job, bool done);
+  double finish(Task& task, const Job& job, bool done);
   AssumedOpening assume(const scene::Snapshot& state, const RecentSamples::Trend& trend) const;
+  barge::OpeningSignal ahead(const AssumedOpening& assumed, const scene::Snapshot& state) const;
   void notice_departure(Task& task, double time_s, const barge::OpeningAngles& angles);
 
   scene::SceneDescription scene_;

@@ -29,7 +29,8 @@ EnsemblePlan draw_members(const std::string& scene, const std::vector<std::strin
 
 /// What an ensemble says.
 struct EnsembleForecast {
-  std::uint64_t run = 0;  ///< of the live run it belongs to
+  std::uint64_t run = 0;       ///< of the live run it belongs to
+  std::int64_t origin_ns = 0;  ///< stamp of the log's time 0
   double from_s = 0.0;    ///< simulated time of the newest opening that the members know
   std::uint64_t seed = 0;
   std::vector<std::string> inputs;  ///< scene keys
