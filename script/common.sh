@@ -14,9 +14,10 @@ core_packages=(build-essential ccache cmake ninja-build pkg-config
   python3-tqdm python3-yaml)
 ros_packages=(ros-core-dev catkin
   libdiagnostic-updater-dev librosbag-dev libroscpp-dev libtf2-eigen-dev libtf2-geometry-msgs-dev libtf2-ros-dev
-  libdiagnostic-msgs-dev libgeometry-msgs-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libvisualization-msgs-dev
+  libdiagnostic-msgs-dev libgeometry-msgs-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtrajectory-msgs-dev
+  libvisualization-msgs-dev
   python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs
-  python3-visualization-msgs
+  python3-trajectory-msgs python3-visualization-msgs
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam python3-rospy python3-rosservice
   python3-rostopic rosbash rosout librostest-dev python3-rostest python3-rosunit
   ros-robot-state-publisher)

@@ -33,13 +33,17 @@ std::vector<std::optional<double>> figures_of(const scene::StatusFrame& status)
   return values;
 }
 
-void advance_to_end(scene::Simulation& simulation, const std::function<bool()>& stop, Member& member)
+void advance_to_end(scene::Simulation& simulation, const std::function<bool(const scene::Simulation&)>& done,
+                    const std::function<bool()>& stop, Member& member)
 {
   while (!stop()) {
     switch (simulation.advance()) {
       case Advance::stepped:
-      case Advance::frame_due:
         continue;
+      case Advance::frame_due:
+        if (!done(simulation))
+          continue;
+        [[fallthrough]];
       case Advance::finished:
         member.ending = Ending::completed;
         return;
@@ -123,10 +127,11 @@ std::size_t release_time_figure()
   return release_time;
 }
 
-Member advance_member(scene::Simulation& simulation, const std::function<bool()>& stop)
+Member advance_member(scene::Simulation& simulation, const std::function<bool(const scene::Simulation&)>& done,
+                      const std::function<bool()>& stop)
 {
   Member member;
-  advance_to_end(simulation, stop, member);
+  advance_to_end(simulation, done, stop, member);
   const scene::StatusFrame status = simulation.status();
   member.outcome = status.outcome;
   member.figures = figures_of(status);
@@ -155,7 +160,8 @@ Member run_member(const scene::SceneDescription& scene, const std::function<void
   try {
     scene::Simulation simulation(scene, 1);
     open(simulation);
-    return advance_member(simulation, stop);
+    return advance_member(
+        simulation, [](const scene::Simulation&) { return false; }, stop);
   } catch (const std::exception& error) {  // a scene that cannot be built, or no memory
     return failed_member(error.what());
   }

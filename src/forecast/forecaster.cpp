@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "geocontainer_mpm/ensemble/members.h"
-#include "geocontainer_mpm/forecast/run_ahead.h"
 
 namespace geocontainer_mpm::forecast {
 namespace {
@@ -93,13 +92,15 @@ void Forecaster::restart(std::uint64_t run)
   changed_.notify_all();
 }
 
-/// Stale is what was published; what is being computed is given up where the hull is far from it.
-void Forecaster::notice_departure(Task& task, double time_s, const OpeningAngles& angles)
+/// Stale is what was published. A forecast that is being computed is given up where the hull is far from it; an
+/// ensemble takes longer and is never.
+void Forecaster::notice_departure(double time_s, const OpeningAngles& angles)
 {
-  if (task.published && task.published->departure(time_s, angles) > settings_.tolerance_rad)
-    task.stale = true;
-  if (task.computing && task.computing->departure(time_s, angles) > hopeless * settings_.tolerance_rad)
-    task.give_up = true;
+  for (Task* task : { &forecasting_, &ensembling_ })
+    if (task->published && task->published->departure(time_s, angles) > settings_.tolerance_rad)
+      task->stale = true;
+  if (forecasting_.computing && forecasting_.computing->departure(time_s, angles) > hopeless * settings_.tolerance_rad)
+    forecasting_.give_up = true;
 }
 
 void Forecaster::measured(double time_s, const OpeningAngles& angles)
@@ -110,8 +111,7 @@ void Forecaster::measured(double time_s, const OpeningAngles& angles)
     wake = recent_.empty();
     recent_.add(time_s, angles);
     const bool was_stale = forecasting_.stale || ensembling_.stale;
-    notice_departure(forecasting_, time_s, angles);
-    notice_departure(ensembling_, time_s, angles);
+    notice_departure(time_s, recent_.trend().angles);  // a sample alone is as far off as its noise
     wake = wake || (!was_stale && (forecasting_.stale || ensembling_.stale));
   }
   if (wake)
@@ -213,9 +213,9 @@ double Forecaster::finish(Task& task, const Job& job, bool done)
   }
   task.published = std::exchange(task.computing, std::nullopt);
   task.from_s = job.state.time_s();
-  const barge::OpeningPoint& newest = recent_.newest();
-  task.stale = task.published && task.published->departure(newest.time_s, newest.angles) > settings_.tolerance_rad;
-  return newest.time_s;
+  const double newest_s = recent_.newest().time_s;
+  task.stale = task.published && task.published->departure(newest_s, recent_.trend().angles) > settings_.tolerance_rad;
+  return newest_s;
 }
 
 barge::OpeningSignal Forecaster::ahead(const AssumedOpening& assumed, const scene::Snapshot& state) const
@@ -240,8 +240,8 @@ void Forecaster::run_forecasts()
       continue;
     lock.unlock();
     std::optional<Forecast> forecast =
-        forecast::run_ahead(scene_, job->state, ahead(job->assumed, job->state), settings_.horizon_s,
-                            settings_.interval_s, [this] { return forecasting_.give_up.load(); });
+        forecast::run_ahead(scene_, job->state, ahead(job->assumed, job->state), settings_.reach, settings_.interval_s,
+                            [this] { return forecasting_.give_up.load(); });
     const double newest_s = finish(forecasting_, *job, forecast.has_value());
     if (forecast) {
       forecast->run = job->run;
@@ -305,7 +305,7 @@ void Forecaster::pass_ensemble(Lock& lock)
 
 std::vector<ensemble::Member> Forecaster::members_ahead(const scene::Snapshot& state, const AssumedOpening& assumed)
 {
-  return ensemble_->run_ahead(state.opening(), ahead(assumed, state), settings_.horizon_s,
+  return ensemble_->run_ahead(state.opening(), ahead(assumed, state), settings_.reach,
                               [this] { return ensembling_.give_up.load(); });
 }
 

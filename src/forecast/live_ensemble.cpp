@@ -7,7 +7,6 @@
 
 #include "geocontainer_mpm/ensemble/sampling.h"
 #include "geocontainer_mpm/error.h"
-#include "geocontainer_mpm/forecast/run_ahead.h"
 
 namespace geocontainer_mpm::forecast {
 namespace {
@@ -69,7 +68,7 @@ void LiveEnsemble::follow(std::size_t i, const barge::OpeningSignal& so_far, con
 }
 
 ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningSignal& so_far,
-                                            const barge::OpeningSignal& ahead, double horizon_s,
+                                            const barge::OpeningSignal& ahead, const Reach& reach,
                                             const std::function<bool()>& stop)
 {
   Follower& follower = followers_[i];
@@ -82,10 +81,11 @@ ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningS
     if (!now)
       return ensemble::failed_member("there is no log yet");
     scene::SceneDescription scene = plan_.scenes[i];
-    scene.time.end_s = now->time_s() + horizon_s;
+    scene.time.end_s = now->time_s() + reach.horizon_s;
     scene::Simulation run(scene, 1, *now);
     run.opening() = ahead;
-    return ensemble::advance_member(run, stop);
+    return ensemble::advance_member(
+        run, [&](const scene::Simulation& simulation) { return nothing_more_to_see(simulation, reach); }, stop);
   } catch (const std::exception& error) {  // a scene that cannot be built, or no memory
     follower.failed = error.what();
     return ensemble::failed_member(error.what());
@@ -93,7 +93,7 @@ ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningS
 }
 
 std::vector<ensemble::Member> LiveEnsemble::run_ahead(const barge::OpeningSignal& so_far,
-                                                      const barge::OpeningSignal& ahead, double horizon_s,
+                                                      const barge::OpeningSignal& ahead, const Reach& reach,
                                                       const std::function<bool()>& stop)
 {
   std::mutex adding;
@@ -102,7 +102,7 @@ std::vector<ensemble::Member> LiveEnsemble::run_ahead(const barge::OpeningSignal
       followers_.size(), threads_,
       [&](std::size_t i) {
         const double began = thread_cpu_time_s();
-        ensemble::Member member = member_ahead(i, so_far, ahead, horizon_s, stop);
+        ensemble::Member member = member_ahead(i, so_far, ahead, reach, stop);
         const std::lock_guard<std::mutex> lock(adding);
         cost += thread_cpu_time_s() - began;
         return member;

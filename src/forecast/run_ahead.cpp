@@ -23,13 +23,15 @@ Instant instant_of(const scene::Simulation& simulation)
   return instant;
 }
 
-/// Nothing will happen any more.
-bool at_rest_for_good(const scene::Simulation& simulation)
-{
-  return simulation.status().resting && std::isinf(simulation.opening().next_motion_s(simulation.time_s()));
-}
-
 }  // namespace
+
+bool nothing_more_to_see(const scene::Simulation& simulation, const Reach& reach)
+{
+  const scene::StatusFrame status = simulation.status();
+  if (status.release_time_s >= 0.0 && simulation.time_s() > status.release_time_s + reach.after_release_s)
+    return true;
+  return status.resting && std::isinf(simulation.opening().next_motion_s(simulation.time_s()));
+}
 
 double thread_cpu_time_s()
 {
@@ -39,12 +41,12 @@ double thread_cpu_time_s()
 }
 
 std::optional<Forecast> run_ahead(const scene::SceneDescription& scene, const scene::Snapshot& from,
-                                  const barge::OpeningSignal& opening, double horizon_s, double interval_s,
+                                  const barge::OpeningSignal& opening, const Reach& reach, double interval_s,
                                   const std::function<bool()>& stop)
 {
   const double began_s = thread_cpu_time_s();
   scene::SceneDescription longer = scene;
-  longer.time.end_s = from.time_s() + horizon_s;
+  longer.time.end_s = from.time_s() + reach.horizon_s;
   scene::Simulation simulation(longer, 1, from);
   simulation.opening() = opening;
 
@@ -56,7 +58,7 @@ std::optional<Forecast> run_ahead(const scene::SceneDescription& scene, const sc
       return std::nullopt;
     const Advance result = simulation.advance();
     done = result == Advance::finished || result == Advance::stopped || result == Advance::waiting ||
-           at_rest_for_good(simulation);
+           nothing_more_to_see(simulation, reach);
     if (result == Advance::stopped)
       forecast.stopped = simulation.failure().reason;
     const double since_last = simulation.time_s() - forecast.instants.back().time_s;

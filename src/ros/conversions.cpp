@@ -67,23 +67,6 @@ ros::Duration to_duration(double seconds)
   return ros::Duration(std::clamp(seconds, -2e9, 2e9));
 }
 
-std::uint8_t to_message(scene::Outcome outcome)
-{
-  switch (outcome) {
-    case scene::Outcome::waiting:
-      return ReleaseStatus::WAITING;
-    case scene::Outcome::releasing:
-      return ReleaseStatus::RELEASING;
-    case scene::Outcome::released:
-      return ReleaseStatus::RELEASED;
-    case scene::Outcome::hung_up:
-      return ReleaseStatus::HUNG_UP;
-    case scene::Outcome::none:
-      break;
-  }
-  return ReleaseStatus::NONE;
-}
-
 std::string outcome_sentence(const Progress& progress)
 {
   const scene::StatusFrame& status = progress.status;
@@ -106,6 +89,23 @@ std::string outcome_sentence(const Progress& progress)
 }
 
 }  // namespace
+
+std::uint8_t to_message(scene::Outcome outcome)
+{
+  switch (outcome) {
+    case scene::Outcome::waiting:
+      return ReleaseStatus::WAITING;
+    case scene::Outcome::releasing:
+      return ReleaseStatus::RELEASING;
+    case scene::Outcome::released:
+      return ReleaseStatus::RELEASED;
+    case scene::Outcome::hung_up:
+      return ReleaseStatus::HUNG_UP;
+    case scene::Outcome::none:
+      break;
+  }
+  return ReleaseStatus::NONE;
+}
 
 ros::Time to_time(std::int64_t stamp_ns, const ros::Time& before_first_sample)
 {

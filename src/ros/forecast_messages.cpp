@@ -68,7 +68,8 @@ std::string outcome_ahead(const Forecast& forecast)
     case scene::Outcome::hung_up:
       return "The container will hang in the slot";
     case scene::Outcome::releasing:
-      return fmt::format("The container will not have left the hull within {:.0f} s", forecast.until_s - forecast.from_s);
+      return fmt::format("The container will not have left the hull within {:.0f} s",
+                         forecast.until_s - forecast.from_s);
     case scene::Outcome::waiting:
       return "The container will stay in the hull";
     case scene::Outcome::none:
@@ -146,9 +147,9 @@ std::string first_non_finite(const Forecast& forecast)
   if (!status.peak_tension_position_m.allFinite())
     return "place of the forecast's peak";
   for (const Instant& instant : forecast.instants)
-    for (const double value : { instant.time_s, instant.opening.port_rad, instant.opening.starboard_rad,
-                                instant.tension_n_per_m, instant.peak_tension_n_per_m, instant.utilisation,
-                                instant.width_m, instant.centroid_m.sum() })
+    for (const double value :
+         { instant.time_s, instant.opening.port_rad, instant.opening.starboard_rad, instant.tension_n_per_m,
+           instant.peak_tension_n_per_m, instant.utilisation, instant.width_m, instant.centroid_m.sum() })
       if (!std::isfinite(value))
         return fmt::format("forecast of {} s", instant.time_s);
   return "";
@@ -214,8 +215,8 @@ ReleaseEnsemble to_release_ensemble(const EnsembleForecast& ensemble)
   message.ruptured = summary.ruptured ? summary.ruptured->value : 0.0;
   message.tension_correlation = correlations_of(tension);
   message.release_correlation = correlations_of(release);
-  message.message = fmt::format("Largest tension {:.0f} to {:.0f} kN/m in eight of ten cases", tension.p10 / 1e3,
-                                tension.p90 / 1e3);
+  message.message =
+      fmt::format("Largest tension {:.0f} to {:.0f} kN/m in eight of ten cases", tension.p10 / 1e3, tension.p90 / 1e3);
   add_advice(ensemble.advice, message);
   return message;
 }

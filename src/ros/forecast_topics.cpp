@@ -60,7 +60,8 @@ std::vector<barge::OpeningSample> to_plan(const trajectory_msgs::JointTrajectory
     if (point.positions.size() != trajectory.joint_names.size())
       throw InputError("opening_plan", fmt::format("points[{}].positions", i),
                        fmt::format("{} values", point.positions.size()), "must have one for each joint");
-    plan.push_back({ begin_ns + point.time_from_start.toNSec(), { point.positions[port], point.positions[starboard] } });
+    plan.push_back(
+        { begin_ns + point.time_from_start.toNSec(), { point.positions[port], point.positions[starboard] } });
   }
   return plan;
 }
@@ -77,8 +78,8 @@ ForecastTopics::ForecastTopics(ros::NodeHandle& node, const NodeParameters& para
   hooks.ensemble = [this](const forecast::EnsembleForecast& ensemble) {
     ensembles_.publish(to_release_ensemble(ensemble));
   };
-  forecaster_ = std::make_unique<forecast::Forecaster>(scene, settings_of(parameters.forecast),
-                                                       ensemble_of(parameters), std::move(hooks));
+  forecaster_ = std::make_unique<forecast::Forecaster>(scene, settings_of(parameters.forecast), ensemble_of(parameters),
+                                                       std::move(hooks));
   plans_ = node.subscribe("opening_plan", queue_size, &ForecastTopics::take_plan, this);
 }
 

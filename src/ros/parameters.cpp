@@ -26,6 +26,52 @@ void require_writable_directory(const Reader& reader, const char* key, const std
     reader.fail(key, XmlRpcValue(directory.string()), "must be (in) an existing directory that this node may write to");
 }
 
+void read_ensemble(Reader reader, ForecastParameters& parameters)
+{
+  reader.read("members", parameters.members, 0, 10'000);
+  reader.read("distributions", parameters.distributions);
+  reader.read("scene_overrides", parameters.ensemble_overrides);
+  reader.read("seed", parameters.seed, 0, std::numeric_limits<int>::max());
+  reader.read("threads", parameters.ensemble_threads, 1, 256);
+  reader.read("period_s", parameters.settings.ensemble_period_s, 0.0, 86'400.0);
+  reader.refuse_unknown();
+  if (parameters.members > 0)
+    require_text(reader, "distributions", parameters.distributions);
+}
+
+void read_advice(Reader reader, ForecastParameters& parameters)
+{
+  forecast::AdviceSettings& advice = parameters.advice;
+  const double unlimited = std::numeric_limits<double>::infinity();
+  reader.read("enabled", parameters.advice_enabled);
+  reader.read("utilisation_limit", advice.utilisation_limit, 0.0, unlimited);
+  reader.read("slowest_rad_per_s", advice.slowest_rad_per_s, 0.0, unlimited);
+  reader.read("fastest_rad_per_s", advice.fastest_rad_per_s, 0.0, unlimited);
+  reader.read("ladder", advice.ladder, 2, 100);
+  reader.read("halvings", advice.halvings, 0, 100);
+  reader.refuse_unknown();
+  if (advice.slowest_rad_per_s >= advice.fastest_rad_per_s)
+    reader.fail("slowest_rad_per_s", XmlRpcValue(advice.slowest_rad_per_s),
+                "must be below ~forecast/advice/fastest_rad_per_s");
+  if (parameters.advice_enabled && parameters.members == 0)
+    reader.fail("enabled", XmlRpcValue(true), "needs an ensemble: ~forecast/ensemble/members above 0");
+}
+
+void read_forecast(Reader reader, ForecastParameters& parameters)
+{
+  forecast::ForecasterSettings& settings = parameters.settings;
+  reader.read("enabled", parameters.enabled);
+  reader.read("horizon_s", settings.reach.horizon_s, 0.0, 86'400.0);
+  reader.read("after_release_s", settings.reach.after_release_s, 0.0, 86'400.0);
+  reader.read("interval_s", settings.interval_s, 0.0, 3600.0);
+  reader.read("period_s", settings.period_s, 0.0, 86'400.0);
+  reader.read("tolerance_rad", settings.tolerance_rad, 0.0, 1.57);
+  reader.read("rate_window_s", settings.rate_window_s, 0.0, 3600.0);
+  read_ensemble(reader.dictionary("ensemble"), parameters);
+  read_advice(reader.dictionary("advice"), parameters);
+  reader.refuse_unknown();
+}
+
 }  // namespace
 
 NodeParameters parse_parameters(const XmlRpcValue& tree, const std::string& source)
@@ -53,6 +99,7 @@ NodeParameters parse_parameters(const XmlRpcValue& tree, const std::string& sour
   reader.read("save_directory", parameters.save_directory);
   reader.read("service_timeout_s", parameters.service_timeout_s, 0.0, 3600.0);
   reader.read("diagnostic_period", parameters.diagnostic_period, 0.0, 3600.0);
+  read_forecast(reader.dictionary("forecast"), parameters.forecast);
   reader.refuse_unknown();
 
   require_text(reader, "scene", parameters.scene);

@@ -50,7 +50,13 @@ ReleaseNode::ReleaseNode(ros::NodeHandle node, ros::NodeHandle private_node)
            static_cast<unsigned long>(simulation.counters().particles), parameters_.threads);
 
   input_ = std::make_unique<OpeningInput>(node, parameters_.joints, queue_);
+  if (parameters_.forecast.enabled)
+    forecasts_ = std::make_unique<ForecastTopics>(node, parameters_, scene_);
   SolverHooks hooks;
+  if (forecasts_) {
+    hooks.forecaster = &forecasts_->forecaster();
+    hooks.restarted = [this](std::uint64_t run) { forecasts_->restart(run); };
+  }
   hooks.now_ns = [] { return static_cast<std::int64_t>(ros::Time::now().toNSec()); };
   hooks.senders = [this] { return input_->senders(); };
   hooks.frame_wanted = [this] { return outputs_.wanted(); };

@@ -177,6 +177,7 @@ void SolverThread::turn()
   } else {
     advance();
   }
+  give_state_ahead();
   if (steady_now_ns() - last_delivery_ns_ >= heartbeat_ns)
     deliver(false);
   if (state_ != RunState::running)
@@ -202,13 +203,26 @@ void SolverThread::drain_queue(std::int64_t now_ns)
         ++count_of(rejected_at_gate_, RejectReason::unstamped);
         break;
       case GateDecision::take:
-        if (simulation_.opening().add(arrived->sample) == barge::SampleVerdict::accepted)
+        if (simulation_.opening().add(arrived->sample) == barge::SampleVerdict::accepted) {
           gate_.taken(arrived->sample);
+          if (hooks_.forecaster)
+            hooks_.forecaster->measured(seconds(arrived->sample.stamp_ns - simulation_.opening().origin_ns()),
+                                        arrived->sample.angles);
+        }
         break;
     }
     last_arrival_ns_ = std::max(last_arrival_ns_, arrived->arrived_ns);
     queue_.pop();
   }
+}
+
+/// What a run ahead starts from, when one is about to.
+void SolverThread::give_state_ahead()
+{
+  if (!hooks_.forecaster || !hooks_.forecaster->state_wanted())
+    return;
+  if (std::optional<scene::Snapshot> state = simulation_.snapshot())
+    hooks_.forecaster->give_state(std::move(*state));
 }
 
 void SolverThread::notice_silence(std::int64_t now_ns)
@@ -293,6 +307,8 @@ void SolverThread::restart()
   digest_time_s_ = -1.0;
   failure_ = {};
   state_ = RunState::waiting_for_opening;
+  if (hooks_.restarted)
+    hooks_.restarted(run_);
   deliver(false);
 }
 

@@ -83,7 +83,7 @@ void follow(LiveRun& live, Forecaster& forecaster, double until_s)
 ForecasterSettings quick()
 {
   ForecasterSettings settings;
-  settings.horizon_s = 15.0;
+  settings.reach = { 15.0, 2.0 };
   settings.rate_window_s = 0.5;
   settings.period_s = settings.ensemble_period_s = 3600.0;  // only what is asked for here
   return settings;

@@ -32,10 +32,11 @@ TEST(LiveEnsemble, FollowsTheLogInPiecesAsOneRunFromItsBeginningWould)
   for (int i = 0; i <= 40; ++i) {
     so_far.add(sample_at(i));
     if (i == 15 || i == 30 || i == 40)
-      members = pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), 8.0, never);
+      members = pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, never);
   }
   EXPECT_GT(pieces.cost_s(), 0.0);
-  const std::vector<ensemble::Member> at_once = whole.run_ahead(so_far, opening.continue_from(so_far, 1.0), 8.0, never);
+  const std::vector<ensemble::Member> at_once =
+      whole.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, never);
   ASSERT_EQ(members.size(), 3u);
   for (std::size_t i = 0; i < members.size(); ++i) {
     EXPECT_EQ(members[i].ending, ensemble::Ending::completed) << members[i].why;
@@ -45,7 +46,8 @@ TEST(LiveEnsemble, FollowsTheLogInPiecesAsOneRunFromItsBeginningWould)
   EXPECT_NE(members[0].digest, members[1].digest);
 
   pieces.reset();  // another log begins
-  const std::vector<ensemble::Member> again = pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), 8.0, never);
+  const std::vector<ensemble::Member> again =
+      pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, never);
   for (std::size_t i = 0; i < members.size(); ++i)
     EXPECT_EQ(again[i].digest, at_once[i].digest);
 }
@@ -61,7 +63,7 @@ TEST(LiveEnsemble, SaysWhyAMemberIsMissing)
   for (int i = 0; i <= 40; ++i)
     so_far.add(sample_at(i));
   const std::vector<ensemble::Member> members =
-      ensemble.run_ahead(so_far, opening.continue_from(so_far, 1.0), 4.0, never);
+      ensemble.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 4.0, 20.0 }, never);
   EXPECT_EQ(members[0].ending, ensemble::Ending::failed);
   EXPECT_NE(members[0].why.find("solver stopped"), std::string::npos) << members[0].why;
   EXPECT_EQ(members[1].ending, ensemble::Ending::completed);

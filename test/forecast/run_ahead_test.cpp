@@ -20,7 +20,7 @@ TEST(RunAhead, UnderTheOpeningThatComesFindsTheSameToTheLastBit)
   ASSERT_TRUE(now);
   const AssumedOpening& plan = planned();
   const std::optional<Forecast> forecast =
-      run_ahead(scene, *now, plan.continue_from(now->opening(), 1.0), 20.0, 0.25, never);
+      run_ahead(scene, *now, plan.continue_from(now->opening(), 1.0), { 20.0, 20.0 }, 0.25, never);
   ASSERT_TRUE(forecast);
   EXPECT_EQ(forecast->stopped, "");
   EXPECT_LT(forecast->from_s, 1.5);
@@ -59,7 +59,7 @@ TEST(RunAhead, AtTheRateMeasuredHalfWayNamesTheRelease)
       AssumedOpening::at_rate(recent.newest().time_s, trend.angles, trend.rate, scene.hull->full_opening());
   const std::optional<scene::Snapshot> now = live.simulation().snapshot();
   const std::optional<Forecast> forecast =
-      run_ahead(scene, *now, assumed.continue_from(now->opening(), 1.0), 20.0, 0.25, never);
+      run_ahead(scene, *now, assumed.continue_from(now->opening(), 1.0), { 20.0, 20.0 }, 0.25, never);
   live.follow_until(log_end_s);
   live.simulation().opening().finish();
   live.catch_up();
@@ -76,10 +76,11 @@ TEST(RunAhead, OfAClosedHullIsOverAtOnceAndOfNoneIsNothing)
   const std::optional<scene::Snapshot> now = live.simulation().snapshot();
   const AssumedOpening closed = AssumedOpening::at_rate(0.4, {}, {}, full_rad);
   const std::optional<Forecast> forecast =
-      run_ahead(scene, *now, closed.continue_from(now->opening(), 1.0), 60.0, 0.25, never);
+      run_ahead(scene, *now, closed.continue_from(now->opening(), 1.0), { 60.0, 20.0 }, 0.25, never);
   EXPECT_EQ(forecast->status.outcome, scene::Outcome::waiting);
   EXPECT_LT(forecast->until_s, 10.0);  // at rest for good
-  EXPECT_FALSE(run_ahead(scene, *now, closed.continue_from(now->opening(), 1.0), 60.0, 0.25, [] { return true; }));
+  EXPECT_FALSE(
+      run_ahead(scene, *now, closed.continue_from(now->opening(), 1.0), { 60.0, 20.0 }, 0.25, [] { return true; }));
 }
 
 }  // namespace

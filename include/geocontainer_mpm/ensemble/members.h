@@ -44,8 +44,10 @@ struct Member {
   std::uint64_t digest = 0;
 };
 
-/// From where it is to the end of its scene, or until `stop()` says so.
-Member advance_member(scene::Simulation& simulation, const std::function<bool()>& stop);
+/// From where it is to the end of its scene, or until `done()` says that there is nothing more to see; interrupted when
+/// `stop()` says so.
+Member advance_member(scene::Simulation& simulation, const std::function<bool(const scene::Simulation&)>& done,
+                      const std::function<bool()>& stop);
 Member failed_member(const std::string& why);
 
 /// Runs one member on one thread, until `stop()` says so. `open` gives the run its opening. Never throws: what goes

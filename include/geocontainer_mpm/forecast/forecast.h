@@ -30,9 +30,9 @@ struct Instant {
 struct Forecast {
   std::uint64_t run = 0;       ///< of the live run it belongs to
   std::int64_t origin_ns = 0;  ///< stamp of the log's time 0
-  double from_s = 0.0;    ///< simulated time of the state it started from
-  double newest_s = 0.0;  ///< time of the newest measurement when it was ready
-  double until_s = 0.0;   ///< as far as it got
+  double from_s = 0.0;         ///< simulated time of the state it started from
+  double newest_s = 0.0;       ///< time of the newest measurement when it was ready
+  double until_s = 0.0;        ///< as far as it got
   Assumption assumption = Assumption::measured;
   std::vector<Instant> instants;
   /// At the end; its peak, release and rupture are those of the whole run, what lies behind included.

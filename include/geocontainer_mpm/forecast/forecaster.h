@@ -20,6 +20,7 @@
 #include "geocontainer_mpm/forecast/assumed_opening.h"
 #include "geocontainer_mpm/forecast/forecast.h"
 #include "geocontainer_mpm/forecast/live_ensemble.h"
+#include "geocontainer_mpm/forecast/run_ahead.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
 namespace geocontainer_mpm::forecast {
@@ -90,7 +91,7 @@ private:
   double finish(Task& task, const Job& job, bool done);
   AssumedOpening assume(const scene::Snapshot& state, const RecentSamples::Trend& trend) const;
   barge::OpeningSignal ahead(const AssumedOpening& assumed, const scene::Snapshot& state) const;
-  void notice_departure(Task& task, double time_s, const barge::OpeningAngles& angles);
+  void notice_departure(double time_s, const barge::OpeningAngles& angles);
 
   scene::SceneDescription scene_;
   ForecasterSettings settings_;

@@ -10,6 +10,7 @@
 #include "geocontainer_mpm/ensemble/distribution.h"
 #include "geocontainer_mpm/ensemble/members.h"
 #include "geocontainer_mpm/forecast/advice.h"
+#include "geocontainer_mpm/forecast/run_ahead.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
 namespace geocontainer_mpm::forecast {
@@ -31,7 +32,7 @@ EnsemblePlan draw_members(const std::string& scene, const std::vector<std::strin
 struct EnsembleForecast {
   std::uint64_t run = 0;       ///< of the live run it belongs to
   std::int64_t origin_ns = 0;  ///< stamp of the log's time 0
-  double from_s = 0.0;    ///< simulated time of the newest opening that the members know
+  double from_s = 0.0;         ///< simulated time of the newest opening that the members know
   std::uint64_t seed = 0;
   std::vector<std::string> inputs;  ///< scene keys
   ensemble::Summary summary;
@@ -51,7 +52,7 @@ public:
   /// Every member follows `so_far` as far as it is known, and from there goes on under `ahead`, which continues it and
   /// is finished, for `horizon_s`. A member that could not be built or had to stop says so in its place.
   std::vector<ensemble::Member> run_ahead(const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
-                                          double horizon_s, const std::function<bool()>& stop);
+                                          const Reach& reach, const std::function<bool()>& stop);
   double cost_s() const { return cost_s_; }  ///< processor time of the last run_ahead(), all threads
 
 private:
@@ -61,7 +62,7 @@ private:
   };
 
   ensemble::Member member_ahead(std::size_t i, const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
-                                double horizon_s, const std::function<bool()>& stop);
+                                const Reach& reach, const std::function<bool()>& stop);
   void follow(std::size_t i, const barge::OpeningSignal& so_far, const std::function<bool()>& stop);
 
   EnsemblePlan plan_;

@@ -43,6 +43,7 @@ GeotextileForces to_geotextile_forces(const scene::GeotextileFrame& sheet, const
 /// Fields x, y, z, speed (m/s), mean_stress (Pa, compression negative); every `stride`-th particle of each body.
 sensor_msgs::PointCloud2 to_soil_cloud(const scene::Frame& frame, const View& view, int stride);
 
+std::uint8_t to_message(scene::Outcome outcome);  ///< as in ReleaseStatus
 ReleaseStatus to_release_status(const Progress& progress, const View& view);
 
 /// The filtered opening in use, for robot_state_publisher: joints `hull_port_joint` and `hull_starboard_joint`.

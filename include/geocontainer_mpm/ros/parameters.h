@@ -7,9 +7,24 @@
 #include <string>
 #include <vector>
 
+#include "geocontainer_mpm/forecast/forecaster.h"
 #include "geocontainer_mpm/ros/opening_conversion.h"
 
 namespace geocontainer_mpm::ros_bridge {
+
+/// Dictionary `forecast`, with dictionaries `ensemble` and `advice` in it.
+struct ForecastParameters {
+  bool enabled = false;                   ///< run ahead at all
+  forecast::ForecasterSettings settings;  ///< `horizon_s`, `interval_s`, `period_s`, ...; the advice is apart
+  int members = 0;                        ///< `ensemble/members`; 0: no ensemble
+  std::string distributions;              ///< `ensemble/distributions`: file of what is drawn
+  /// `ensemble/scene_overrides`: on top of the scene's own, for a coarser grid.
+  std::vector<std::string> ensemble_overrides;
+  int seed = 1;              ///< `ensemble/seed`
+  int ensemble_threads = 1;  ///< `ensemble/threads`
+  bool advice_enabled = false;
+  forecast::AdviceSettings advice;
+};
 
 struct NodeParameters {
   std::string scene;                         ///< path of the scene file; must be given
@@ -40,6 +55,8 @@ struct NodeParameters {
   std::string save_directory = ".";  ///< where ~save puts its files
   double service_timeout_s = 5.0;    ///< longest wait of a service for the solver, s, > 0
   double diagnostic_period = 1.0;    ///< wall-clock time between diagnostics, s, > 0
+
+  ForecastParameters forecast;
 };
 
 /// `tree` is the struct of all private parameters, `source` the node's name for messages. Throws InputError for a key

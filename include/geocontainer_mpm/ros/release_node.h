@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "geocontainer_mpm/ros/diagnostics.h"
+#include "geocontainer_mpm/ros/forecast_topics.h"
 #include "geocontainer_mpm/ros/opening_input.h"
 #include "geocontainer_mpm/ros/outputs.h"
 #include "geocontainer_mpm/ros/parameters.h"
@@ -31,6 +32,7 @@ private:
   Outputs outputs_;
   // Destroyed in reverse order: the thread of solver_ uses everything above it.
   std::unique_ptr<OpeningInput> input_;
+  std::unique_ptr<ForecastTopics> forecasts_;  ///< none: no forecasts
   std::unique_ptr<SolverThread> solver_;
   std::unique_ptr<Diagnostics> diagnostics_;
   ros::ServiceServer reset_, start_, stop_, save_;

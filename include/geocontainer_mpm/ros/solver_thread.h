@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "geocontainer_mpm/forecast/forecaster.h"
 #include "geocontainer_mpm/ros/opening_gate.h"
 #include "geocontainer_mpm/ros/opening_input.h"
 #include "geocontainer_mpm/ros/progress.h"
@@ -35,7 +36,9 @@ struct SolverHooks {
   std::function<unsigned()> senders;     ///< senders of the opening that are connected
   std::function<bool()> frame_wanted;    ///< does anybody read frames
   std::function<void(const scene::Frame&, const Progress&)> frame;
-  std::function<void(const Progress&)> progress;  ///< where a frame is not wanted
+  std::function<void(const Progress&)> progress;     ///< where a frame is not wanted
+  std::function<void(std::uint64_t run)> restarted;  ///< may be empty
+  forecast::Forecaster* forecaster = nullptr;        ///< is told what it needs; none: no forecasts
 };
 
 struct Reply {
@@ -71,6 +74,7 @@ private:
   void turn();
   void follow_clock(std::int64_t now_ns);
   void drain_queue(std::int64_t now_ns);
+  void give_state_ahead();
   void notice_silence(std::int64_t now_ns);
   void notice_end_of_log();
   void advance();
