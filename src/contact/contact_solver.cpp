@@ -113,15 +113,19 @@ void ContactSolver<Dim>::collect(std::uint32_t index, const BoundaryBody<Dim>& b
                                  double widest, std::size_t memory, double dt, const mpm::Grid<Dim>& grid)
 {
   const mpm::Particles<Dim>& particles = *points.particles;
-  const double reach = search_cells * grid.dx();
+  const double reach = search_cells * grid.dx(), look = points.strays ? stray_cells * grid.dx() : reach + widest;
   for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (points.strays && (*points.strays)[particles.id[p]] == 0)
+      continue;
     const Vec<Dim> point = particles.position_of(p);
-    if (!body.may_touch(point, reach + widest))
+    if (!body.may_touch(point, look))
       continue;
     const Nearest<Dim> surface = body.nearest(point);
-    const double gap = surface.distance - (points.has_width ? half_width<Dim>(particles.initial_volume[p]) : 0.0);
+    double gap = surface.distance - (points.has_width ? half_width<Dim>(particles.initial_volume[p]) : 0.0);
     if (!(gap < reach))
       continue;
+    if (points.strays)
+      gap = std::max(gap, 0.0);
     Contact contact;
     mpm::visit_reach_of<Dim>(shape_, particles, p, grid,
                              [&](const auto& near) { contact.handle = make_handle(near, point, grid); });

@@ -8,6 +8,9 @@
 
 namespace geocontainer_mpm::contact {
 
+/// Cells behind a surface within which a stray grain is seen.
+constexpr double stray_cells = 4.0;
+
 /// Half the width of a particle: of a square or a cube of its volume, m.
 template <int Dim>
 double half_width(double volume)

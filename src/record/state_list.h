@@ -26,9 +26,9 @@ struct StateAccess {
   template <class A, int Dim>
   static void list(A& archive, scene::Body<Dim>& body)
   {
-    auto& [name, field, particles, strips, row, law, elastic, viscous, damping, enclosed, held, manufactured, start,
-           density, particle_height] = body;
-    GEOCONTAINER_MPM_STATE(particles, row, held);
+    auto& [name, field, particles, strips, row, law, elastic, viscous, damping, enclosed, held, strays, manufactured,
+           start, density, particle_height] = body;
+    GEOCONTAINER_MPM_STATE(particles, row, held, strays);
     auto& [begin] = strips;
     archive("strips", begin);
   }

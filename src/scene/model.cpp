@@ -187,7 +187,7 @@ void Model<Dim>::apply_forces(const StepInput& input, double kick)
   }
 }
 
-/// What may touch in each field: a body in a sheet touches rigid surfaces by its sheet.
+/// What may touch in each field: a body in a sheet touches rigid surfaces by its sheet, but for strays.
 template <int Dim>
 void Model<Dim>::collect_points()
 {
@@ -201,6 +201,8 @@ void Model<Dim>::collect_points()
     fields_[body.field].all_points.push_back({ &body.particles, true });
     if (!body.enclosed)
       fields_[body.field].points.push_back({ &body.particles, true });
+    else if (!body.strays.empty())
+      fields_[body.field].points.push_back({ &body.particles, true, &body.strays });
   }
   for (const ModelSheet& sheet : now_.sheets) {
     if (sheet.held)

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "../contact/impulse.h"
 #include "geocontainer_mpm/scene/model.h"
 
 namespace geocontainer_mpm::scene {
@@ -211,6 +212,28 @@ Failure Model<Dim>::fastest(bool sheets_too) const
 }
 
 /// What has lost its shape so far that its law and its loads mean nothing any more.
+template <int Dim>
+void Model<Dim>::find_strays()
+{
+  const double look = contact::stray_cells * fields_.front().grid.dx();
+  const auto behind = [&](const Vec<Dim>& point, double half_width) {
+    return std::any_of(boundaries_.begin(), boundaries_.end(), [&](const contact::BoundaryBody<Dim>& boundary) {
+      return boundary.may_touch(point, look) && boundary.nearest(point).distance < -half_width;
+    });
+  };
+  for (Body& body : now_.bodies) {
+    if (!body.enclosed || body.held)
+      continue;
+    body.strays.clear();
+    for (std::size_t p = 0; p < body.particles.size(); ++p) {
+      if (!behind(body.position(p), contact::half_width<Dim>(body.particles.initial_volume[p])))
+        continue;
+      body.strays.resize(body.particles.size(), 0);
+      body.strays[body.particles.id[p]] = 1;
+    }
+  }
+}
+
 template <int Dim>
 Failure Model<Dim>::distortion() const
 {

@@ -18,6 +18,8 @@ constexpr double uneven_rad = 0.01;
 constexpr double same_instant_s = 1e-9;
 /// A run can be taken back by this many steps. Fewer cost more copies, more cost more steps to take again.
 constexpr int steps_between_checkpoints = 32;
+/// In so many steps the fastest grain of a release falls by three cells: within contact::stray_cells.
+constexpr std::uint64_t steps_between_stray_searches = 128;
 /// Energy from nowhere below this part of what is stored is not looked at: near rest the books of friction and of
 /// grains that part and meet are not exact, while what is unstable grows through any bound.
 constexpr double negligible_energy = 1e-3;
@@ -283,6 +285,8 @@ bool Run<Dim>::step_once(Advance& result)
     result = undo(*wrong);
     return true;
   }
+  if (progress.steps % steps_between_stray_searches == 0)
+    model.find_strays();
   if (model.rms_velocity() > scene.numerics.rest_velocity_m_per_s)
     progress.still_since_s = progress.time_s;
   if (scene.numerics.skip_resting.value_or(scene.hull.has_value()) && still_for_s() >= scene.numerics.rest_time_s) {

@@ -29,6 +29,9 @@ template <int Dim>
 struct ContactPoints {
   const mpm::Particles<Dim>* particles;
   bool has_width;
+  /// By id: those that are meant, and are not pushed back to where they may be but kept from going further. Not given:
+  /// all.
+  const std::vector<std::uint8_t>* strays = nullptr;
 };
 
 /// A material point whose way is prescribed: the held end of a sheet.

@@ -26,7 +26,7 @@
 namespace geocontainer_mpm::forecast {
 
 struct ForecasterSettings {
-  double horizon_s = 60.0;               ///< simulated time that a run ahead covers, s, > 0
+  Reach reach;              ///< of every run ahead
   double interval_s = 0.25;              ///< between instants of a forecast, s, > 0
   double period_s = 5.0;                 ///< wall-clock s after which a forecast is made anew, > 0
   double tolerance_rad = 0.005;          ///< departure that makes a forecast stale, rad, > 0

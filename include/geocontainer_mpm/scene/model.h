@@ -41,6 +41,8 @@ struct Body {
   mpm::StressDamping damping;
   bool enclosed = false;  ///< a sheet is its surface
   bool held = false;      ///< it has not started yet: stands where it is and takes no part
+  /// Enclosed: by id, grains that are through their sheet and all of them behind a rigid surface. Empty: none.
+  std::vector<std::uint8_t> strays;
   std::shared_ptr<const Manufactured> manufactured;
   std::shared_ptr<const std::vector<Vec<Dim>>> start;  ///< positions at the start by id, m
   double density = 0.0;                                ///< of the material, kg/m^3
@@ -193,6 +195,9 @@ public:
   Failure fastest(bool sheets_too) const;
   /// A body far from its volume, or a load on a torn boundary; an empty reason: none.
   Failure distortion() const;
+  /// Looks for grains that have slipped through their sheet between its nodes and are behind a rigid surface, which
+  /// their sheet keeps all others from. From now on they touch it themselves.
+  void find_strays();
   const StageTimes& stages() const { return stages_; }
 
 private:
