@@ -106,5 +106,44 @@ TEST(Parameters, FoldersThatAreNotThereAreRefused)
   EXPECT_TRUE(contains(refusal("record", "/no/such/folder/r.h5"), "~record"));
 }
 
+TEST(Parameters, OfForecastsAreReadFromTheirDictionaries)
+{
+  XmlRpcValue tree = minimal();
+  EXPECT_FALSE(parse_parameters(tree, "/node").forecast.enabled);
+  tree["forecast"]["enabled"] = true;
+  tree["forecast"]["horizon_s"] = 30.0;
+  tree["forecast"]["ensemble"]["members"] = 8;
+  tree["forecast"]["ensemble"]["distributions"] = "soil.yaml";
+  tree["forecast"]["ensemble"]["scene_overrides"][0] = "grid.cell_size_m=0.4";
+  tree["forecast"]["advice"]["enabled"] = true;
+  tree["forecast"]["advice"]["utilisation_limit"] = 0.7;
+  const ForecastParameters forecast = parse_parameters(tree, "/node").forecast;
+  EXPECT_TRUE(forecast.enabled);
+  EXPECT_EQ(forecast.settings.reach.horizon_s, 30.0);
+  EXPECT_EQ(forecast.members, 8);
+  EXPECT_EQ(forecast.ensemble_overrides, std::vector<std::string>{ "grid.cell_size_m=0.4" });
+  EXPECT_EQ(forecast.advice.utilisation_limit, 0.7);
+}
+
+TEST(Parameters, OfForecastsThatDoNotFitAreNamedWithTheirDictionary)
+{
+  const auto with = [](const char* key, const XmlRpcValue& value) {
+    XmlRpcValue tree = minimal();
+    tree["forecast"][key] = value;
+    return refusal(tree);
+  };
+  EXPECT_TRUE(contains(with("horizon_s", XmlRpcValue(0.0)), "~forecast/horizon_s"));
+  EXPECT_TRUE(contains(with("horizon", XmlRpcValue(30.0)), "horizon_s"));  // what is known
+  XmlRpcValue advice;
+  advice["enabled"] = true;
+  EXPECT_TRUE(contains(with("advice", advice), "~forecast/advice/enabled"));
+  advice["enabled"] = false;
+  advice["slowest_rad_per_s"] = 0.5;
+  EXPECT_TRUE(contains(with("advice", advice), "~forecast/advice/slowest_rad_per_s"));
+  XmlRpcValue ensemble;
+  ensemble["members"] = 4;
+  EXPECT_TRUE(contains(with("ensemble", ensemble), "~forecast/ensemble/distributions"));
+}
+
 }  // namespace
 }  // namespace geocontainer_mpm::ros_bridge
