@@ -13,7 +13,8 @@ constexpr double two_sided_95 = 1.959963984540054;  ///< of a standard normal di
 double quantile(std::vector<double> samples, double p)
 {
   std::sort(samples.begin(), samples.end());
-  const double place = p * static_cast<double>(samples.size() - 1);
+  const auto count = static_cast<double>(samples.size());
+  const double place = std::clamp(p * (count + 1.0) - 1.0, 0.0, count - 1.0);
   const auto below = static_cast<std::size_t>(place);
   const double part = place - static_cast<double>(below);
   if (part == 0.0)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace geocontainer_mpm::ensemble {
 namespace {
@@ -18,11 +19,29 @@ TEST(Quantile, IsLinearBetweenSamples)
 {
   const std::vector<double> ten = { 7, 1, 5, 3, 9, 2, 4, 10, 8, 6 };
   EXPECT_DOUBLE_EQ(quantile(ten, 0.0), 1.0);
-  EXPECT_DOUBLE_EQ(quantile(ten, 0.1), 1.9);  // place 0.9 of 0 ... 9
+  EXPECT_DOUBLE_EQ(quantile(ten, 0.1), 1.1);  // rank 0.1 (10 + 1)
   EXPECT_DOUBLE_EQ(quantile(ten, 0.5), 5.5);
-  EXPECT_DOUBLE_EQ(quantile(ten, 0.9), 9.1);
+  EXPECT_DOUBLE_EQ(quantile(ten, 0.9), 9.9);
   EXPECT_DOUBLE_EQ(quantile(ten, 1.0), 10.0);
   EXPECT_DOUBLE_EQ(quantile({ 4.0 }, 0.9), 4.0);
+}
+
+/// What a band is for: of a truth that is drawn like the members it holds what it says, however few they are.
+TEST(Quantile, BandsHoldTheShareOfNewDrawsThatTheyPromise)
+{
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform;
+  int inside = 0;
+  const int trials = 20000, members = 16;
+  for (int i = 0; i < trials; ++i) {
+    std::vector<double> samples;
+    for (int m = 0; m < members; ++m)
+      samples.push_back(uniform(random));
+    const double truth = uniform(random);
+    inside += truth >= quantile(samples, 0.1) && truth <= quantile(samples, 0.9) ? 1 : 0;
+  }
+  // Exact for the uniform law. Three standard deviations of so many trials are 0.0085.
+  EXPECT_NEAR(static_cast<double>(inside) / trials, 0.8, 0.0085);
 }
 
 TEST(Quantile, IsInfiniteWhereASampleIs)

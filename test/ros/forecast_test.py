@@ -44,7 +44,7 @@ class Received:
 def plan_of(port):
     trajectory = JointTrajectory(joint_names=["hull_starboard_joint", "hull_port_joint"])
     trajectory.header.stamp = rospy.Time.now()
-    for after_s, angle in ((0.0, 0.0), (8.0, 0.3)):
+    for after_s, angle in ((0.0, 0.02), (8.0, 0.3)):
         point = JointTrajectoryPoint(positions=[angle, angle if port else math.nan])
         point.time_from_start = rospy.Duration(after_s)
         trajectory.points.append(point)
@@ -60,15 +60,17 @@ class ForecastTest(unittest.TestCase):
         ensembles = Received("release_ensemble", ReleaseEnsemble)
         plans = rospy.Publisher("opening_plan", JointTrajectory, queue_size=1, latch=True)
 
-        ahead = forecasts.wait(lambda m: m.outcome == ReleaseStatus.RELEASED, "a forecast of the release")
-        self.forecast(ahead)
-        self.assertEqual(ahead.assumption, ReleaseForecast.MEASURED)
-
+        measured = forecasts.wait(lambda m: m.assumption == ReleaseForecast.MEASURED, "a forecast")
+        self.forecast(measured)
         plans.publish(plan_of(port=False))  # not a number: the one before stays, and that is the measured rate
-        plans.publish(plan_of(port=True))
-        planned = forecasts.wait(lambda m: m.assumption == ReleaseForecast.PLAN, "a forecast under the plan")
+        plan = plan_of(port=True)
+        plans.publish(plan)
+        planned = forecasts.wait(lambda m: m.assumption == ReleaseForecast.PLAN and m.outcome == ReleaseStatus.RELEASED,
+                                 "a forecast under the plan")
         self.forecast(planned)
-        self.assertAlmostEqual(planned.port[-1], 0.3, delta=0.002)
+        after_s = (planned.stamps[-1] - plan.header.stamp).to_sec()
+        self.assertAlmostEqual(planned.port[-1], min(0.3, 0.02 + 0.28 * after_s / 8.0), delta=0.005)
+        self.assertTrue(any(m.stale for m in forecasts.messages), "nothing was withdrawn")
 
         self.ensemble(ensembles.wait(lambda m: m.advice != ReleaseEnsemble.NONE_ASKED, "advice"))
         diagnostics.wait_for_state("finished", limit_s=60.0)
@@ -77,7 +79,7 @@ class ForecastTest(unittest.TestCase):
     def forecast(self, message):
         self.assertEqual(message.header.frame_id, "base_link")
         count = len(message.stamps)
-        self.assertGreater(count, 4)
+        self.assertGreater(count, 1)
         for values in (message.port, message.starboard, message.tension, message.peak_tension, message.utilisation,
                        message.width):
             self.assertEqual(len(values), count)
@@ -89,7 +91,7 @@ class ForecastTest(unittest.TestCase):
             self.assertGreater(message.release_time.to_sec(), stamps[0])
             self.assertIn("will leave the hull", message.message)
         self.assertGreater(message.peak_tension[-1], 0.0)
-        self.assertGreater(message.cost, 0.0)
+        self.assertGreaterEqual(message.cost, 0.0)
         self.assertGreaterEqual(message.age, 0.0)
 
     def ensemble(self, message):
