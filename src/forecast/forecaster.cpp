@@ -141,23 +141,28 @@ void Forecaster::plan(const std::vector<barge::OpeningSample>& samples)
   {
     const Lock lock(mutex_);
     plan_ = samples;
+    ++plans_;
     forecasting_.stale = ensembling_.stale = true;
   }
   changed_.notify_all();
 }
 
+/// The plan, for as long as the hull keeps to it.
 AssumedOpening Forecaster::assume(const scene::Snapshot& state, const RecentSamples::Trend& trend) const
 {
-  const barge::OpeningSignalParameters& signal = scene_.hull ? scene_.hull->signal : barge::OpeningSignalParameters{};
+  const double newest_s = recent_.newest().time_s;
   if (!plan_.empty()) {
     std::vector<barge::OpeningPoint> points;
     for (const barge::OpeningSample& sample : plan_)
       points.push_back({ static_cast<double>(sample.stamp_ns - state.opening().origin_ns()) / 1e9, sample.angles });
-    return AssumedOpening::planned(std::move(points), signal, "points");
+    AssumedOpening plan = AssumedOpening::planned(
+        std::move(points), scene_.hull ? scene_.hull->signal : barge::OpeningSignalParameters{}, "points");
+    if (plan.departure(newest_s, trend.angles) <= settings_.tolerance_rad)
+      return plan;
   }
   const double full = scene_.hull ? scene_.hull->full_opening() : 0.0;
   const OpeningAngles rate = stands_still(state.opening(), settings_.rate_window_s) ? OpeningAngles{} : trend.rate;
-  return AssumedOpening::at_rate(recent_.newest().time_s, trend.angles, rate, full);
+  return AssumedOpening::at_rate(newest_s, trend.angles, rate, full);
 }
 
 /// False: quit. `also` is another reason to wake up.
@@ -200,7 +205,7 @@ std::optional<Forecaster::Job> Forecaster::begin(Lock& lock, Task& task)
   task.computing = assume(*state, trend);
   task.give_up = quit_.load();
   task.due = Clock::now() + duration(&task == &forecasting_ ? settings_.period_s : settings_.ensemble_period_s);
-  return Job{ run_, *state, *task.computing, recent_.newest().time_s };
+  return Job{ run_, plans_, *state, *task.computing, recent_.newest().time_s };
 }
 
 /// What was computed is published from now on, unless it was given up. Returns the time of the newest measurement.
@@ -214,7 +219,8 @@ double Forecaster::finish(Task& task, const Job& job, bool done)
   task.published = std::exchange(task.computing, std::nullopt);
   task.from_s = job.state.time_s();
   const double newest_s = recent_.newest().time_s;
-  task.stale = task.published && task.published->departure(newest_s, recent_.trend().angles) > settings_.tolerance_rad;
+  task.stale =
+      job.plans != plans_ || task.published->departure(newest_s, recent_.trend().angles) > settings_.tolerance_rad;
   return newest_s;
 }
 

@@ -136,6 +136,21 @@ TEST(Forecaster, PrefersThePlan)
   EXPECT_NEAR(forecast.status.release_time_s, live.simulation().status().release_time_s, 1e-9);
 }
 
+TEST(Forecaster, GivesUpAPlanThatTheHullDoesNotKeepTo)
+{
+  const scene::SceneDescription scene = coarse_release();
+  LiveRun live(scene);
+  Received received;
+  Forecaster forecaster(scene, quick(), nullptr, received.hooks());
+  barge::OpeningSample closed = sample_at(0);
+  barge::OpeningSample late = sample_at(50);
+  late.stamp_ns += 60'000'000'000;
+  forecaster.plan({ closed, late });
+  follow(live, forecaster, 1.5);
+  ASSERT_TRUE(serve(live, forecaster, [&] { return !received.forecasts().empty(); }));
+  EXPECT_EQ(received.forecasts().back().forecast.assumption, Assumption::measured);
+}
+
 TEST(Forecaster, IsSilentAboutALogThatIsOver)
 {
   const scene::SceneDescription scene = coarse_release();

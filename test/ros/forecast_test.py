@@ -44,7 +44,7 @@ class Received:
 def plan_of(port):
     trajectory = JointTrajectory(joint_names=["hull_starboard_joint", "hull_port_joint"])
     trajectory.header.stamp = rospy.Time.now()
-    for after_s, angle in ((0.0, 0.02), (8.0, 0.3)):
+    for after_s, angle in ((0.0, 0.02), (60.0, 0.02), (68.0, 0.3)):
         point = JointTrajectoryPoint(positions=[angle, angle if port else math.nan])
         point.time_from_start = rospy.Duration(after_s)
         trajectory.points.append(point)
@@ -63,13 +63,11 @@ class ForecastTest(unittest.TestCase):
         measured = forecasts.wait(lambda m: m.assumption == ReleaseForecast.MEASURED, "a forecast")
         self.forecast(measured)
         plans.publish(plan_of(port=False))  # not a number: the one before stays, and that is the measured rate
-        plan = plan_of(port=True)
-        plans.publish(plan)
+        plans.publish(plan_of(port=True))
         planned = forecasts.wait(lambda m: m.assumption == ReleaseForecast.PLAN and m.outcome == ReleaseStatus.RELEASED,
                                  "a forecast under the plan")
         self.forecast(planned)
-        after_s = (planned.stamps[-1] - plan.header.stamp).to_sec()
-        self.assertAlmostEqual(planned.port[-1], min(0.3, 0.02 + 0.28 * after_s / 8.0), delta=0.01)  # what the filter rounds off
+        self.assertGreater(planned.port[-1], 0.15)  # the log itself stays below 0.04
         self.assertTrue(any(m.stale for m in forecasts.messages), "nothing was withdrawn")
 
         self.ensemble(ensembles.wait(lambda m: m.advice != ReleaseEnsemble.NONE_ASKED, "advice"))

@@ -26,7 +26,7 @@
 namespace geocontainer_mpm::forecast {
 
 struct ForecasterSettings {
-  Reach reach;              ///< of every run ahead
+  Reach reach;                           ///< of every run ahead
   double interval_s = 0.25;              ///< between instants of a forecast, s, > 0
   double period_s = 5.0;                 ///< wall-clock s after which a forecast is made anew, > 0
   double tolerance_rad = 0.005;          ///< departure that makes a forecast stale, rad, > 0
@@ -73,7 +73,7 @@ private:
     std::optional<double> from_s;  ///< of the published one
   };
   struct Job {
-    std::uint64_t run;
+    std::uint64_t run, plans;
     scene::Snapshot state;
     AssumedOpening assumed;
     double newest_s;  ///< time of the newest measurement
@@ -113,6 +113,7 @@ private:
   std::optional<scene::Snapshot> state_;
   std::uint64_t states_given_ = 0;
   std::vector<barge::OpeningSample> plan_;
+  std::uint64_t plans_ = 0;  ///< that came
   std::optional<Forecast> last_forecast_;
   Task forecasting_, ensembling_;
 
