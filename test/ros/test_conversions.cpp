@@ -107,7 +107,7 @@ TEST(Conversions, SoilCloudHasSpeedAndMeanStressOfEveryStridethParticle)
 TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
 {
   Progress progress = small_progress();
-  ReleaseStatus status = to_release_status(progress, turned_view());
+  ReleaseStatus status = to_release_status(progress, {}, turned_view());
   EXPECT_EQ(status.outcome, ReleaseStatus::RELEASING);
   EXPECT_LT(status.release_time.toSec(), 0.0);
   EXPECT_NEAR(status.peak_tension_time.toSec(), 1.25, 1e-9);
@@ -120,7 +120,7 @@ TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
 
   progress.state = RunState::stopped;
   progress.failure = { "a particle left the grid", Vec3(0.0, 1.5, -2.0), 2.4 };
-  status = to_release_status(progress, View());
+  status = to_release_status(progress, {}, View());
   EXPECT_TRUE(status.stopped);
   EXPECT_NE(status.message.find("at y 1.500 m, z -2.000 m: a particle left the grid"), std::string::npos);
   EXPECT_EQ(status.message.find('\n'), std::string::npos);
@@ -136,7 +136,7 @@ TEST(Conversions, EveryOutcomeHasItsNumberOnTheWire)
   for (const auto& [outcome, number] : outcomes) {
     Progress progress = small_progress();
     progress.status.outcome = outcome;
-    EXPECT_EQ(to_release_status(progress, View()).outcome, number);
+    EXPECT_EQ(to_release_status(progress, {}, View()).outcome, number);
   }
 }
 
