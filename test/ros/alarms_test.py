@@ -14,6 +14,7 @@ import rosbag
 import rospy
 import rostest
 from geocontainer_mpm.msg import HullOpening, ReleaseAlarm, ReleaseStatus
+from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -25,8 +26,8 @@ NAMES = ["sheet_utilisation", "seam_utilisation", "forecast_utilisation", "hung_
 
 
 def bump(time_s):
-    """How much further port is open, rad: up to 0.09 and back, 0.06 rad/s."""
-    return min(max(0.06 * (time_s - 1.0), 0.0), max(0.06 * (4.2 - time_s), 0.0), 0.09)
+    """How much further port is open, rad: after the log's dropout up to 0.0675 and back, 0.075 rad/s."""
+    return min(max(0.075 * (time_s - 2.6), 0.0), max(0.075 * (4.8 - time_s), 0.0), 0.0675)
 
 
 def make_lopsided(source, target):
@@ -86,14 +87,14 @@ class AlarmTestCase(unittest.TestCase):
         self.parameters = {"scene": rospy.get_param("~scene"), "diagnostic_period": 0.1, "threads": 2,
                            "fixed_frame": "base_link",
                            "scene_overrides": ["geotextiles.container.seam_efficiency=0.005", "time.end_s=30"],
-                           "alarms": {"lopsided_warn_rad": 0.03, "lopsided_alarm_rad": 0.06, "fall_after_s": 0.3,
+                           "alarms": {"lopsided_warn_rad": 0.025, "lopsided_alarm_rad": 0.05, "fall_after_s": 0.3,
                                       "silence_alarm_s": 2.0}}
 
     def watch(self, statuses, diagnostics):
         """From the first rise to the acknowledgement."""
         raised = statuses.wait("lopsided_opening", lambda a: a.level == ReleaseAlarm.ALARM, 40.0, "lopsided")
         self.assertIn("Port is", raised.message)
-        self.assertGreater(raised.value, 0.06)
+        self.assertGreater(raised.value, 0.05)
         self.assertEqual(raised.unit, "rad")
         self.assertGreater(raised.since.to_sec(), 0.0)
         self.assertFalse(raised.acknowledged)
@@ -136,7 +137,7 @@ class LiveTest(AlarmTestCase):
                 due = begin + message.header.stamp.to_sec() - first
                 time.sleep(max(0.0, due - time.time()))
                 publisher.publish(HullOpening(port=message.port, starboard=message.starboard,
-                                              header=rospy.Header(stamp=rospy.Time.from_sec(due))))
+                                              header=Header(stamp=rospy.Time.from_sec(due))))
 
     def test_live_alarms_reach_the_diagnostics(self):
         statuses, diagnostics = Statuses(), NodeDiagnostics()

@@ -126,6 +126,30 @@ TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
   EXPECT_EQ(status.message.find('\n'), std::string::npos);
 }
 
+TEST(Conversions, StatusCarriesTheAlarms)
+{
+  AlarmReport report;
+  report.replay = true;
+  report.alarms.resize(1);
+  alarm::Alarm& alarm = report.alarms.front();
+  alarm = { "lag", "s", alarm::Level::warn, alarm::Level::alarm, true, 12'500'000'000, 4.0, 2.0, "late" };
+  const ReleaseStatus status = to_release_status({}, report, View());
+  ASSERT_EQ(status.alarms.size(), 1u);
+  EXPECT_TRUE(status.replay);
+  EXPECT_EQ(status.alarms[0].name, "lag");
+  EXPECT_EQ(status.alarms[0].level, ReleaseAlarm::WARN);
+  EXPECT_EQ(status.alarms[0].latched, ReleaseAlarm::ALARM);
+  EXPECT_TRUE(status.alarms[0].acknowledged);
+  EXPECT_EQ(status.alarms[0].since, ros::Time(12.5));
+  EXPECT_EQ(status.alarms[0].value, 4.0);
+  EXPECT_EQ(status.alarms[0].unit, "s");
+  EXPECT_EQ(status.alarms[0].lead_time, 2.0);
+  EXPECT_EQ(status.alarms[0].message, "late");
+  EXPECT_EQ(first_non_finite(report), "");
+  alarm.value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(first_non_finite(report), "alarm lag");
+}
+
 TEST(Conversions, EveryOutcomeHasItsNumberOnTheWire)
 {
   const std::pair<scene::Outcome, int> outcomes[] = { { scene::Outcome::waiting, ReleaseStatus::WAITING },
