@@ -211,8 +211,8 @@ Reading ReleaseAlarms::judge_sensor(const Progress& progress, std::int64_t now_n
   Reading reading = alarm::stated(Level::normal);
   reading.message = "The opening is heard";
   const double share = rejected_share(progress, now_ns);
-  if (over(progress)) {
-    reading.message = "The log is over";
+  if (over(progress) || now_ns == 0) {
+    reading.message = now_ns == 0 ? "The clock is not heard yet" : "The log is over";
     return reading;
   }
   if (progress.newest_stamp_ns == 0) {

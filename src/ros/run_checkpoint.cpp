@@ -155,8 +155,8 @@ bool ResumedLog::too_late(std::int64_t now_ns) const
 std::string ResumedLog::contradiction() const
 {
   return fmt::format(
-      "a new run begins: the checkpoint is of a log from {:.3f} to {:.3f} s, which goes on by {:.3f} s, "
-      "and another one is heard",
+      "a new run begins: the checkpoint's log is of {:.3f} to {:.3f} s and was to go on by {:.3f} s, but "
+      "another one is heard",
       seconds(first_ns_), seconds(last_ns_), seconds(latest_ns_));
 }
 

@@ -208,6 +208,8 @@ TEST_F(ReleaseAlarmsTest, NobodySendsTheOpening)
 {
   heard = false;
   senders = 0;
+  progress.state = RunState::waiting_for_clock;
+  report = alarms.look(progress, 0, senders);
   progress.state = RunState::waiting_for_opening;
   look();
   look(4.9);
