@@ -66,7 +66,7 @@ struct Progress {
   std::string checkpoint_path;          ///< empty: none
   std::string checkpoint_error;         ///< empty: none
   double checkpoint_time_s = -1.0;      ///< simulated instant of the newest one; < 0: none
-  double checkpoint_cost_s = 0.0;       ///< longest that the run was held up by one, wall-clock s
+  double checkpoint_cost_s = 0.0;       ///< most that one has cost the run, processor time, s
   std::string resume;                   ///< what became of the checkpoint that was found; empty: none was
   std::uint64_t known_again = 0;        ///< samples of the log that are from before the checkpoint
 };

@@ -27,7 +27,8 @@ Beginning begin_or_resume(const scene::SceneDescription& scene, int threads, con
 /// only), which takes milliseconds; they are written to the disk, which may take any time, on another.
 class RunCheckpoint {
 public:
-  /// An empty path keeps nothing. `period_s` is wall-clock time, and at least twenty times what making the bytes takes.
+  /// An empty path keeps nothing. `period_s` is wall-clock time, and at least twenty times the processor time that the
+  /// bytes take.
   RunCheckpoint(std::string path, double period_s);
 
   bool due(std::int64_t steady_ns) const { return !path_.empty() && steady_ns >= due_ns_; }
@@ -40,7 +41,7 @@ public:
   const std::string& path() const { return path_; }
   const std::string& error();                ///< of the newest one; empty: none
   double time_s() const { return time_s_; }  ///< simulated instant of the newest one; < 0: none
-  double cost_s() const { return cost_s_; }  ///< longest that a run was held up by one, wall-clock s
+  double cost_s() const { return cost_s_; }  ///< most that one has cost the run, processor time, s
 
 private:
   void look_at_writer();
