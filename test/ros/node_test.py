@@ -31,13 +31,13 @@ class NodeDiagnostics:
                 self._worst[task] = max(self._worst.get(task, 0), status.level)
                 if status.level >= LEVEL_WARN:
                     self.warnings.append((task, status.message))
-                if task == "simulation" and values["state"] == "finished":
+                if task == "simulation" and values.get("state") == "finished":
                     self.finished.setdefault(int(values["run"]), values["state digest"])
             self._changed.notify_all()
 
     def value(self, task, key):
         with self._changed:
-            return self._latest[task][2][key] if task in self._latest else None
+            return self._latest[task][2].get(key) if task in self._latest else None  # none while it is starting up
 
     def level(self, task):
         with self._changed:
