@@ -234,14 +234,19 @@ std::uint64_t opening_hash(const std::vector<barge::OpeningSample>& samples)
   return hash.value();
 }
 
-std::string save_checkpoint(const scene::Simulation& simulation, std::uint64_t opening, const std::string& path)
+std::string checkpoint_bytes(const scene::Simulation& simulation, std::uint64_t opening)
 {
   const QuietHdf5 quiet;
+  return StateAccess::with_run(simulation, [&](auto& run) {
+    auto state = run.right_state();
+    return state ? file_bytes(run, *state, opening) : std::string();
+  });
+}
+
+std::string save_checkpoint(const scene::Simulation& simulation, std::uint64_t opening, const std::string& path)
+{
   try {
-    const std::string bytes = StateAccess::with_run(simulation, [&](auto& run) {
-      auto state = run.right_state();
-      return state ? file_bytes(run, *state, opening) : std::string();
-    });
+    const std::string bytes = checkpoint_bytes(simulation, opening);
     if (bytes.empty())
       return "there is no state to save yet: the run has not begun";
     return replace_file(path, bytes);

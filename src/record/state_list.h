@@ -189,13 +189,13 @@ struct StateAccess {
   static void list(A& archive, scene::ContainerStatus& status)
   {
     auto& [outcome, release_time_s, peak_tension_n_per_m, peak_tension_time_s, peak_tension_position_m,
-           current_tension_n_per_m, elongation_max, peak_utilisation_sheet, peak_utilisation_seam, ruptures,
-           rupture_time_s, rupture_position_m, centroid_m, length_m, width_m, height_m, soil_volume,
-           soil_volume_initial] = static_cast<scene::ContainerState&>(status);
+           current_tension_n_per_m, utilisation_sheet, utilisation_seam, elongation_max, peak_utilisation_sheet,
+           peak_utilisation_seam, ruptures, rupture_time_s, rupture_position_m, centroid_m, length_m, width_m, height_m,
+           soil_volume, soil_volume_initial] = static_cast<scene::ContainerState&>(status);
     GEOCONTAINER_MPM_STATE(outcome, release_time_s, peak_tension_n_per_m, peak_tension_time_s, peak_tension_position_m,
-                           current_tension_n_per_m, elongation_max, peak_utilisation_sheet, peak_utilisation_seam,
-                           ruptures, rupture_time_s, rupture_position_m, centroid_m, length_m, width_m, height_m,
-                           soil_volume, soil_volume_initial);
+                           current_tension_n_per_m, utilisation_sheet, utilisation_seam, elongation_max,
+                           peak_utilisation_sheet, peak_utilisation_seam, ruptures, rupture_time_s, rupture_position_m,
+                           centroid_m, length_m, width_m, height_m, soil_volume, soil_volume_initial);
     // A binding does not reach over a base: what is added here shows by its size.
     static_assert(sizeof(scene::ContainerStatus) ==
                   sizeof(scene::ContainerState) + sizeof(status.name) + sizeof(status.episodes));

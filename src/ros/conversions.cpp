@@ -46,10 +46,10 @@ bool all_finite(const Values& values)
 
 bool finite(const scene::StatusFrame& status)
 {
-  return all_finite(std::array<double, 9>{ status.release_time_s, status.peak_tension_n_per_m,
-                                           status.peak_tension_time_s, status.current_tension_n_per_m,
-                                           status.elongation_max, status.length_m, status.width_m, status.height_m,
-                                           status.soil_volume }) &&
+  return all_finite(std::array<double, 11>{ status.release_time_s, status.peak_tension_n_per_m,
+                                            status.peak_tension_time_s, status.current_tension_n_per_m,
+                                            status.utilisation_sheet, status.utilisation_seam, status.elongation_max,
+                                            status.length_m, status.width_m, status.height_m, status.soil_volume }) &&
          finite(status.centroid_m) && finite(status.peak_tension_position_m);
 }
 
@@ -65,6 +65,23 @@ std_msgs::Header header_of(const View& view)
 ros::Duration to_duration(double seconds)
 {
   return ros::Duration(std::clamp(seconds, -2e9, 2e9));
+}
+
+ReleaseAlarm to_message(const alarm::Alarm& alarm)
+{
+  static_assert(ReleaseAlarm::WARN == static_cast<int>(alarm::Level::warn) &&
+                ReleaseAlarm::ALARM == static_cast<int>(alarm::Level::alarm));
+  ReleaseAlarm message;
+  message.name = alarm.name;
+  message.level = static_cast<std::uint8_t>(alarm.level);
+  message.latched = static_cast<std::uint8_t>(alarm.latched);
+  message.acknowledged = alarm.acknowledged;
+  message.since = to_time(alarm.since_ns, ros::Time());
+  message.value = alarm.value;
+  message.unit = alarm.unit;
+  message.lead_time = alarm.lead_time_s;
+  message.message = alarm.message;
+  return message;
 }
 
 std::string outcome_sentence(const Progress& progress)
@@ -142,6 +159,14 @@ std::string first_non_finite(const Progress& progress)
   if (!finite(progress.opening.port_rad) || !finite(progress.opening.starboard_rad))
     return "opening";
   return finite(progress.status) ? "" : "status";
+}
+
+std::string first_non_finite(const AlarmReport& alarms)
+{
+  for (const alarm::Alarm& alarm : alarms.alarms)
+    if (!finite(alarm.value) || !finite(alarm.lead_time_s))
+      return "alarm " + alarm.name;
+  return "";
 }
 
 geometry_msgs::PolygonStamped to_container_shape(const scene::GeotextileFrame& sheet, const View& view)
@@ -232,7 +257,7 @@ std::string status_sentence(const Progress& progress)
   return sentence + ".";
 }
 
-ReleaseStatus to_release_status(const Progress& progress, const View& view)
+ReleaseStatus to_release_status(const Progress& progress, const AlarmReport& alarms, const View& view)
 {
   const scene::StatusFrame& status = progress.status;
   ReleaseStatus message;
@@ -255,6 +280,10 @@ ReleaseStatus to_release_status(const Progress& progress, const View& view)
   message.height = status.height_m;
   message.real_time_factor = progress.real_time_factor;
   message.lag = progress.lag_s;
+  message.replay = alarms.replay;
+  message.alarms.reserve(alarms.alarms.size());
+  for (const alarm::Alarm& alarm : alarms.alarms)
+    message.alarms.push_back(to_message(alarm));
   return message;
 }
 

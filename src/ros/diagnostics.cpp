@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "geocontainer_mpm/ros/conversions.h"
@@ -33,6 +34,8 @@ void describe_simulation(const Progress& progress, const std::string& scene_name
     status.summary(DiagnosticStatus::WARN, fmt::format("{:.1f} s behind the measurement", progress.lag_s));
   if (!progress.record_error.empty())
     status.mergeSummary(DiagnosticStatus::ERROR, "record: " + progress.record_error);
+  if (!progress.checkpoint_error.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, "checkpoint: " + progress.checkpoint_error);
   if (progress.state == RunState::stopped)
     status.summary(DiagnosticStatus::ERROR, status_sentence(progress));
 
@@ -57,6 +60,13 @@ void describe_simulation(const Progress& progress, const std::string& scene_name
     add(status, "record", progress.record_path);
     add(status, "recorded frames", progress.recorded_frames);
   }
+  if (!progress.checkpoint_path.empty()) {
+    add(status, "checkpoint", progress.checkpoint_path);
+    add(status, "checkpoint of time (s)", progress.checkpoint_time_s);
+    add(status, "checkpoint cost (s)", progress.checkpoint_cost_s);
+  }
+  if (!progress.resume.empty())
+    add(status, "resume", progress.resume);
 }
 
 void describe_opening(const Progress& progress, const Progress& before, unsigned senders,
@@ -83,6 +93,7 @@ void describe_opening(const Progress& progress, const Progress& before, unsigned
   add(status, "accepted", progress.accepted);
   for (std::size_t i = 0; i < reject_reason_count; ++i)
     add(status, std::string("rejected: ") + to_string(static_cast<RejectReason>(i)), progress.rejected[i]);
+  add(status, "known from the checkpoint", progress.known_again);
   add(status, "gaps", progress.gaps);
   add(status, "holding", progress.holding);
   add(status, "log over", progress.log_over);
@@ -100,6 +111,31 @@ void describe_outputs(const OutputHealth& health, const OutputHealth& before, Di
   add(status, "frames dropped", health.dropped);
 }
 
+void describe_alarms(const AlarmReport& report, DiagnosticStatusWrapper& status)
+{
+  alarm::Level worst = alarm::Level::normal;
+  std::string sentences;
+  for (const alarm::Alarm& alarm : report.alarms) {
+    std::string text = fmt::format("{}, {:.3g} {}", to_string(alarm.level), alarm.value, alarm.unit);
+    if (alarm.latched != alarm::Level::normal) {
+      worst = std::max(worst, alarm.latched);
+      sentences += fmt::format("{}{}{}", sentences.empty() ? "" : "; ", alarm.message,
+                               alarm.level == alarm::Level::normal ? " (over)" : "");
+      text += fmt::format(", latched {}, {}", to_string(alarm.latched),
+                          alarm.acknowledged ? "acknowledged" : "not acknowledged");
+    }
+    add(status, alarm.name, text);
+  }
+  const std::string message = sentences.empty() ? "no alarm" : sentences;
+  if (report.replay)
+    status.summary(DiagnosticStatus::OK, "[replay] " + message);
+  else
+    status.summary(worst == alarm::Level::alarm  ? DiagnosticStatus::ERROR
+                   : worst == alarm::Level::warn ? DiagnosticStatus::WARN
+                                                 : DiagnosticStatus::OK,
+                   message);
+}
+
 Diagnostics::Diagnostics(ros::NodeHandle& node, const ros::NodeHandle& private_node, double period_s,
                          std::string scene_name, int threads, DiagnosticSources sources)
     : scene_name_(std::move(scene_name)), threads_(threads), sources_(std::move(sources)), updater_(node, private_node)
@@ -108,6 +144,7 @@ Diagnostics::Diagnostics(ros::NodeHandle& node, const ros::NodeHandle& private_n
   updater_.add("simulation", this, &Diagnostics::simulation);
   updater_.add("hull opening", this, &Diagnostics::opening);
   updater_.add("outputs", this, &Diagnostics::outputs);
+  updater_.add("alarms", this, &Diagnostics::alarms);
   timer_ = node.createWallTimer(ros::WallDuration(period_s),
                                 [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
@@ -129,6 +166,11 @@ void Diagnostics::outputs(DiagnosticStatusWrapper& status)
   const OutputHealth health = sources_.outputs();
   describe_outputs(health, outputs_before_, status);
   outputs_before_ = health;
+}
+
+void Diagnostics::alarms(DiagnosticStatusWrapper& status)
+{
+  describe_alarms(sources_.alarms(), status);
 }
 
 }  // namespace geocontainer_mpm::ros_bridge

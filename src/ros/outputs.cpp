@@ -89,28 +89,28 @@ void Outputs::publish_joints(const Progress& progress)
     joints_.publish(to_hull_joint_states(progress.opening, stamp));
 }
 
-void Outputs::publish_status(const Progress& progress, const View& view)
+void Outputs::publish_status(const Progress& progress, const AlarmReport& alarms, const View& view)
 {
   if (subscribed(status_))
-    status_.publish(to_release_status(progress, view));
+    status_.publish(to_release_status(progress, alarms, view));
 }
 
-void Outputs::publish(const Progress& progress)
+void Outputs::publish(const Progress& progress, const AlarmReport& alarms)
 {
-  if (refuse(first_non_finite(progress)))
+  if (refuse(first_non_finite(progress)) || refuse(first_non_finite(alarms)))
     return;
   publish_joints(progress);
   if (subscribed(status_))
-    publish_status(progress, view_of(progress));
+    publish_status(progress, alarms, view_of(progress));
 }
 
-void Outputs::publish(const scene::Frame& frame, const Progress& progress)
+void Outputs::publish(const scene::Frame& frame, const Progress& progress, const AlarmReport& alarms)
 {
-  if (refuse(first_non_finite(progress)))
+  if (refuse(first_non_finite(progress)) || refuse(first_non_finite(alarms)))
     return;
   const View view = view_of(progress);
   publish_joints(progress);
-  publish_status(progress, view);
+  publish_status(progress, alarms, view);
   if (refuse(first_non_finite(frame)))
     return;
   for (const scene::GeotextileFrame& sheet : frame.geotextile) {

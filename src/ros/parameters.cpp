@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "parameter_reader.h"
 
@@ -72,6 +73,31 @@ void read_forecast(Reader reader, ForecastParameters& parameters)
   reader.refuse_unknown();
 }
 
+/// `<name>_warn<unit>` and `<name>_alarm<unit>`.
+void read_limits(Reader& reader, const std::string& name, const std::string& unit, alarm::Limits& limits)
+{
+  const std::string warn = name + "_warn" + unit, highest = name + "_alarm" + unit;
+  reader.read(warn.c_str(), limits.warn, 0.0, std::numeric_limits<double>::infinity());
+  reader.read(highest.c_str(), limits.alarm, 0.0, std::numeric_limits<double>::infinity());
+  if (limits.alarm <= limits.warn)
+    reader.fail(highest, XmlRpcValue(limits.alarm), "must be greater than " + warn);
+}
+
+void read_alarms(Reader reader, AlarmParameters& alarms)
+{
+  const double unlimited = std::numeric_limits<double>::infinity();
+  read_limits(reader, "utilisation", "", alarms.utilisation);
+  read_limits(reader, "lopsided", "_rad", alarms.lopsided_rad);
+  read_limits(reader, "silence", "_s", alarms.silence_s);
+  reader.read("rejected_warn", alarms.rejected_warn, 0.0, 1.0);
+  read_limits(reader, "lag", "_s", alarms.lag_s);
+  reader.read("not_sinking_s", alarms.not_sinking_s, 0.0, unlimited);
+  reader.read("not_sinking_m", alarms.not_sinking_m, 0.0, unlimited);
+  reader.read("band", alarms.band, 0.0, 0.9, true);
+  reader.read("fall_after_s", alarms.fall_after_s, 0.0, 3600.0, true);
+  reader.refuse_unknown();
+}
+
 }  // namespace
 
 NodeParameters parse_parameters(const XmlRpcValue& tree, const std::string& source)
@@ -97,9 +123,13 @@ NodeParameters parse_parameters(const XmlRpcValue& tree, const std::string& sour
   reader.read("soil_stride", parameters.soil_stride, 1, 1'000'000);
   reader.read("record", parameters.record);
   reader.read("save_directory", parameters.save_directory);
+  reader.read("checkpoint", parameters.checkpoint);
+  reader.read("checkpoint_period_s", parameters.checkpoint_period_s, 0.0, 86'400.0);
+  reader.read("resume_within_s", parameters.resume_within_s, 0.0, 86'400.0);
   reader.read("service_timeout_s", parameters.service_timeout_s, 0.0, 3600.0);
   reader.read("diagnostic_period", parameters.diagnostic_period, 0.0, 3600.0);
   read_forecast(reader.dictionary("forecast"), parameters.forecast);
+  read_alarms(reader.dictionary("alarms"), parameters.alarms);
   reader.refuse_unknown();
 
   require_text(reader, "scene", parameters.scene);
@@ -110,9 +140,11 @@ NodeParameters parse_parameters(const XmlRpcValue& tree, const std::string& sour
   if (parameters.joints.port == parameters.joints.starboard)
     reader.fail("starboard_joint", XmlRpcValue(parameters.joints.starboard), "must differ from ~port_joint");
   require_writable_directory(reader, "save_directory", parameters.save_directory);
-  if (!parameters.record.empty()) {
-    const std::filesystem::path directory = std::filesystem::path(parameters.record).parent_path();
-    require_writable_directory(reader, "record", directory.empty() ? "." : directory);
+  for (const auto& [key, path] :
+       { std::pair("record", parameters.record), std::pair("checkpoint", parameters.checkpoint) }) {
+    const std::filesystem::path directory = std::filesystem::path(path).parent_path();
+    if (!path.empty())
+      require_writable_directory(reader, key, directory.empty() ? "." : directory);
   }
   return parameters;
 }

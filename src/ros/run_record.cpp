@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "geocontainer_mpm/error.h"
@@ -46,6 +49,26 @@ void RunRecord::begin_run(std::uint64_t run)
   error_.clear();
   last_time_s_ = -1.0;
   run_ = run;
+}
+
+std::uint64_t RunRecord::free_run() const
+{
+  const std::filesystem::path path(path_);
+  const std::string numbered = path.stem().string() + "_run", extension = path.extension().string();
+  std::error_code error;
+  std::uint64_t free = !path_.empty() && std::filesystem::exists(path, error) ? 2 : 1;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().stem().string();
+    if (path_.empty() || entry.path().extension() != extension || name.compare(0, numbered.size(), numbered) != 0)
+      continue;
+    const std::string digits = name.substr(numbered.size());
+    std::uint64_t run = 0;
+    const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), run);
+    if (failed == std::errc() && end == digits.data() + digits.size())
+      free = std::max(free, run + 1);
+  }
+  return free;
 }
 
 std::string scene_text(const std::string& scene_path, const std::vector<std::string>& overrides)

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
-#include <filesystem>
 #include <utility>
 
 namespace geocontainer_mpm::ros_bridge {
@@ -26,20 +24,6 @@ std::uint64_t& count_of(RejectedCounts& counts, RejectReason reason)
   return counts[static_cast<std::size_t>(reason)];
 }
 
-/// 0 where there is no geotextile.
-double weakest_seam(const scene::SceneDescription& scene)
-{
-  double weakest = 0.0;
-  for (const auto& [name, sheet] : scene.geotextiles) {
-    double efficiency = sheet.seams.empty() ? sheet.seam_efficiency : 1.0;
-    for (const auto& [seam_name, named] : sheet.seams)
-      efficiency = std::min(efficiency, named.efficiency.value_or(sheet.seam_efficiency));
-    const double seam = sheet.strength_n_per_m * efficiency;
-    weakest = weakest > 0.0 ? std::min(weakest, seam) : seam;
-  }
-  return weakest;
-}
-
 }  // namespace
 
 SolverThread::SolverThread(scene::Simulation simulation, OpeningQueue& queue, RunRecord record, SolverSettings settings,
@@ -50,8 +34,16 @@ SolverThread::SolverThread(scene::Simulation simulation, OpeningQueue& queue, Ru
     , settings_(std::move(settings))
     , hooks_(std::move(hooks))
     , gate_(settings_.gate)
+    , checkpoint_(settings_.checkpoint, settings_.checkpoint_period_s)
+    , resume_(settings_.resume)
     , paused_(!settings_.autostart)
 {
+  record_.begin_run(run_ = settings_.first_run);
+  if (settings_.resumed) {
+    resumed_log_ =
+        ResumedLog(simulation_.opening(), simulation_.scene().hull.value().signal, settings_.resume_within_s);
+    stepped_before_s_ = stepped_s();
+  }
   refresh_progress(nullptr);
   queue_.on_push([this] { wake(); });
   thread_ = std::thread([this] { run(); });
@@ -101,6 +93,11 @@ std::future<Reply> SolverThread::stop()
     paused_ = true;
     return Reply{ true, fmt::format("held at {:.3f} s; samples are still taken", simulation_.time_s()) };
   });
+}
+
+std::future<Reply> SolverThread::announce()
+{
+  return post([] { return Reply{ true, {} }; });
 }
 
 std::future<Reply> SolverThread::save()
@@ -155,6 +152,9 @@ void SolverThread::run()
       wait(idle_wait_ns);
     }
   }
+  if (state_ != RunState::stopped && !simulation_.opening().empty())
+    checkpoint_.save(simulation_);
+  checkpoint_.wait();
 }
 
 void SolverThread::turn()
@@ -188,6 +188,8 @@ void SolverThread::follow_clock(std::int64_t now_ns)
 {
   if (gate_.jumped_back(now_ns))
     restart();
+  else if (resumed_log_.too_late(now_ns))
+    give_up_resumed();
 }
 
 void SolverThread::drain_queue(std::int64_t now_ns)
@@ -203,12 +205,7 @@ void SolverThread::drain_queue(std::int64_t now_ns)
         ++count_of(rejected_at_gate_, RejectReason::unstamped);
         break;
       case GateDecision::take:
-        if (simulation_.opening().add(arrived->sample) == barge::SampleVerdict::accepted) {
-          gate_.taken(arrived->sample);
-          if (hooks_.forecaster)
-            hooks_.forecaster->measured(seconds(arrived->sample.stamp_ns - simulation_.opening().origin_ns()),
-                                        arrived->sample.angles);
-        }
+        take(arrived->sample);
         break;
     }
     last_arrival_ns_ = std::max(last_arrival_ns_, arrived->arrived_ns);
@@ -223,6 +220,26 @@ void SolverThread::give_state_ahead()
     return;
   if (std::optional<scene::Snapshot> state = simulation_.snapshot())
     hooks_.forecaster->give_state(std::move(*state));
+}
+
+void SolverThread::take(const barge::OpeningSample& sample)
+{
+  switch (resumed_log_.judge(sample)) {
+    case ResumedLog::Verdict::known:
+      ++known_again_;
+      return;
+    case ResumedLog::Verdict::another:
+      give_up_resumed();
+      break;
+    case ResumedLog::Verdict::goes_on:
+      break;
+  }
+  if (simulation_.opening().add(sample) != barge::SampleVerdict::accepted)
+    return;
+  gate_.taken(sample);
+  resumed_log_.has_gone_on();
+  if (hooks_.forecaster)
+    hooks_.forecaster->measured(seconds(sample.stamp_ns - simulation_.opening().origin_ns()), sample.angles);
 }
 
 void SolverThread::notice_silence(std::int64_t now_ns)
@@ -276,12 +293,16 @@ void SolverThread::advance()
     case scene::Advance::frame_due:
       set_state(RunState::running);
       deliver(true);
+      if (checkpoint_.due(steady_now_ns()))
+        checkpoint_.save(simulation_);
       return;
     case scene::Advance::waiting:
       set_state(RunState::following);
       return;
     case scene::Advance::finished:
       set_state(RunState::finished);
+      checkpoint_.wait();
+      checkpoint_.save(simulation_);
       deliver(true);
       return;
     case scene::Advance::stopped:
@@ -292,13 +313,26 @@ void SolverThread::advance()
   }
 }
 
+void SolverThread::give_up_resumed()
+{
+  resume_ = resumed_log_.contradiction();
+  if (hooks_.notice)
+    hooks_.notice(resume_);
+  checkpoint_.set_aside();
+  restart();
+}
+
 void SolverThread::restart()
 {
   const bool fresh = simulation_.opening().empty() && simulation_.counters().steps == 0;
   if (!fresh) {
     simulation_.reset();
     record_.begin_run(++run_);
+    checkpoint_.discard();
   }
+  resumed_log_ = {};
+  known_again_ = 0;
+  stepped_before_s_ = 0.0;
   gate_.reset();
   rejected_at_gate_ = {};
   dropped_before_ = queue_.dropped();
@@ -310,112 +344,6 @@ void SolverThread::restart()
   if (hooks_.restarted)
     hooks_.restarted(run_);
   deliver(false);
-}
-
-void SolverThread::deliver(bool frame_is_due)
-{
-  const std::int64_t steady_ns = steady_now_ns();
-  const bool keep = frame_is_due && !record_.path().empty();
-  // Everything that is not the routine of a running prediction goes out at once.
-  const bool throttled = frame_is_due && state_ == RunState::running && steady_ns < next_output_ns_;
-  const bool show = !throttled && hooks_.frame_wanted();
-  if (keep || show) {
-    const scene::Frame frame = simulation_.frame();
-    if (keep)
-      record_.write(frame);
-    refresh_progress(&frame);
-    if (show)
-      hooks_.frame(frame, progress());
-  } else {
-    refresh_progress(nullptr);
-  }
-  if (throttled)
-    return;
-  if (!show)
-    hooks_.progress(progress());
-  last_delivery_ns_ = steady_ns;
-  // Instants on a grid rather than a least distance: frames come in bursts, with the samples.
-  const auto period_ns = static_cast<std::int64_t>(1e9 / settings_.publish_rate_hz);
-  next_output_ns_ = std::max(next_output_ns_ + period_ns, steady_ns - period_ns);
-}
-
-void SolverThread::set_state(RunState state)
-{
-  if (state == state_)
-    return;
-  state_ = state;
-  // Between samples the state changes 20 times a second: the heartbeat is soon enough for that.
-  if (state != RunState::running && state != RunState::following)
-    refresh_progress(nullptr);
-}
-
-void SolverThread::refresh_progress(const scene::Frame* frame)
-{
-  Progress next = progress();
-  const barge::OpeningSignal& opening = simulation_.opening();
-  next.state = state_;
-  next.run = run_;
-  next.time_s = simulation_.time_s();
-  next.end_s = simulation_.scene().time.end_s;
-  next.status = simulation_.status();
-  next.counters = simulation_.counters();
-  next.opening = {};
-  next.stamp_ns = 0;
-  next.lag_s = 0.0;
-  if (!opening.empty()) {
-    next.stamp_ns = opening.origin_ns() + std::llround(next.time_s * 1e9);
-    if (state_ != RunState::finished)  // nothing more is to be caught up with
-      next.lag_s = std::max(0.0, seconds(opening.last_accepted().stamp_ns - next.stamp_ns));
-    next.opening = opening.angles(next.time_s);
-  }
-  next.seam_strength_n_per_m = weakest_seam(simulation_.scene());
-  if (frame != nullptr)
-    next.dt_s = frame->dt_s;
-  const double stepped_s = next.counters.simulated_time_s - next.counters.skipped.resting_time_s;
-  next.real_time_factor = stepping_ns_ > 0 ? stepped_s / seconds(stepping_ns_) : 0.0;
-
-  using barge::SampleVerdict;
-  next.accepted = opening.count(SampleVerdict::accepted);
-  next.rejected = rejected_at_gate_;
-  count_of(next.rejected, RejectReason::duplicate) = opening.count(SampleVerdict::duplicate);
-  count_of(next.rejected, RejectReason::out_of_order) = opening.count(SampleVerdict::out_of_order);
-  count_of(next.rejected, RejectReason::non_finite) = opening.count(SampleVerdict::non_finite);
-  count_of(next.rejected, RejectReason::out_of_range) = opening.count(SampleVerdict::out_of_range);
-  count_of(next.rejected, RejectReason::too_fast) = opening.count(SampleVerdict::too_fast);
-  count_of(next.rejected, RejectReason::queue_full) = queue_.dropped() - dropped_before_;
-  next.gaps = opening.gaps().size();
-  next.holding = !opening.gaps().empty() && std::isinf(opening.gaps().back().to_s);
-  next.log_over = log_over_;
-  next.failure = failure_;
-  next.record_path = record_.path();
-  next.record_error = record_.error();
-  next.recorded_frames = record_.frames();
-
-  // While steps are taken the digest would be stale before anybody reads it.
-  if (state_ != RunState::running &&
-      (digest_time_s_ < 0.0 || digest_time_s_ != next.time_s || digest_steps_ != next.counters.steps)) {
-    digest_time_s_ = next.time_s;
-    digest_steps_ = next.counters.steps;
-    next.digest = simulation_.digest();
-  }
-  next.digest_time_s = digest_time_s_;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  progress_ = std::move(next);
-}
-
-Reply SolverThread::save_now()
-{
-  std::string stem;
-  do
-    stem = (std::filesystem::path(settings_.save_directory) / fmt::format("{}_{}", record_.scene_name(), ++saved_))
-               .string();
-  while (std::filesystem::exists(stem + ".h5") || std::filesystem::exists(stem + ".json"));
-  const std::string error = save_state(simulation_, record_, stem, seconds(stepping_ns_), settings_.threads);
-  if (!error.empty())
-    return { false, error };
-  const std::string streamed = record_.frames() > 0 ? ", frames so far in " + record_.path() : "";
-  return { true, fmt::format("state at {:.3f} s in {}.h5, summary in {}.json{}", simulation_.time_s(), stem, stem,
-                             streamed) };
 }
 
 }  // namespace geocontainer_mpm::ros_bridge

@@ -139,6 +139,8 @@ void ReleaseWatch<Dim>::measure(const ModelSheet<Dim>& what, double time_s, Cont
   const SheetOf<Dim>& sheet = what.sheet;
   const Tense now = most_tense(what, gauge_);
   watched.current_tension_n_per_m = std::max(0.0, now.tension);
+  watched.utilisation_sheet = now.used.sheet;
+  watched.utilisation_seam = now.used.seam;
   watched.elongation_max = std::max(watched.elongation_max, sheet.largest_strain());
   watched.peak_utilisation_sheet = std::max(watched.peak_utilisation_sheet, now.used.sheet);
   watched.peak_utilisation_seam = std::max(watched.peak_utilisation_seam, now.used.seam);
@@ -214,6 +216,8 @@ StatusFrame ReleaseWatch<Dim>::status(const Model<Dim>& model) const
     if (status.outcome == Outcome::released)
       status.release_time_s = std::max(status.release_time_s, watched.release_time_s);
     status.current_tension_n_per_m = std::max(status.current_tension_n_per_m, watched.current_tension_n_per_m);
+    status.utilisation_sheet = std::max(status.utilisation_sheet, watched.utilisation_sheet);
+    status.utilisation_seam = std::max(status.utilisation_seam, watched.utilisation_seam);
     status.elongation_max = std::max(status.elongation_max, watched.elongation_max);
     status.peak_utilisation_sheet = std::max(status.peak_utilisation_sheet, watched.peak_utilisation_sheet);
     status.peak_utilisation_seam = std::max(status.peak_utilisation_seam, watched.peak_utilisation_seam);

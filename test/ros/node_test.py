@@ -19,6 +19,7 @@ class NodeDiagnostics:
         self._latest = {}       # task -> (level, message, values)
         self.warnings = []      # (task, message), in order
         self.finished = {}      # run -> digest of its end
+        self._worst = {}        # task -> highest level
         self._subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, self._receive, queue_size=100)
 
     def _receive(self, array):
@@ -27,19 +28,32 @@ class NodeDiagnostics:
                 task = status.name.split(": ")[-1]
                 values = {pair.key: pair.value for pair in status.values}
                 self._latest[task] = (status.level, status.message, values)
+                self._worst[task] = max(self._worst.get(task, 0), status.level)
                 if status.level >= LEVEL_WARN:
                     self.warnings.append((task, status.message))
-                if task == "simulation" and values["state"] == "finished":
+                if task == "simulation" and values.get("state") == "finished":
                     self.finished.setdefault(int(values["run"]), values["state digest"])
             self._changed.notify_all()
 
     def value(self, task, key):
         with self._changed:
-            return self._latest[task][2][key] if task in self._latest else None
+            return self._latest[task][2].get(key) if task in self._latest else None  # none while it is starting up
 
     def level(self, task):
         with self._changed:
             return self._latest[task][0] if task in self._latest else None
+
+    def message(self, task):
+        with self._changed:
+            return self._latest[task][1] if task in self._latest else ""
+
+    def worst(self, task):
+        with self._changed:
+            return self._worst.get(task, 0)
+
+    def end(self):
+        """Hears nothing more: a node of the same name may come."""
+        self._subscriber.unregister()
 
     def warned(self, task, part):
         with self._changed:

@@ -107,7 +107,7 @@ TEST(Conversions, SoilCloudHasSpeedAndMeanStressOfEveryStridethParticle)
 TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
 {
   Progress progress = small_progress();
-  ReleaseStatus status = to_release_status(progress, turned_view());
+  ReleaseStatus status = to_release_status(progress, {}, turned_view());
   EXPECT_EQ(status.outcome, ReleaseStatus::RELEASING);
   EXPECT_LT(status.release_time.toSec(), 0.0);
   EXPECT_NEAR(status.peak_tension_time.toSec(), 1.25, 1e-9);
@@ -120,10 +120,34 @@ TEST(Conversions, StatusSaysOutcomeTimesAndUtilisation)
 
   progress.state = RunState::stopped;
   progress.failure = { "a particle left the grid", Vec3(0.0, 1.5, -2.0), 2.4 };
-  status = to_release_status(progress, View());
+  status = to_release_status(progress, {}, View());
   EXPECT_TRUE(status.stopped);
   EXPECT_NE(status.message.find("at y 1.500 m, z -2.000 m: a particle left the grid"), std::string::npos);
   EXPECT_EQ(status.message.find('\n'), std::string::npos);
+}
+
+TEST(Conversions, StatusCarriesTheAlarms)
+{
+  AlarmReport report;
+  report.replay = true;
+  report.alarms.resize(1);
+  alarm::Alarm& alarm = report.alarms.front();
+  alarm = { "lag", "s", alarm::Level::warn, alarm::Level::alarm, true, 12'500'000'000, 4.0, 2.0, "late" };
+  const ReleaseStatus status = to_release_status({}, report, View());
+  ASSERT_EQ(status.alarms.size(), 1u);
+  EXPECT_TRUE(status.replay);
+  EXPECT_EQ(status.alarms[0].name, "lag");
+  EXPECT_EQ(status.alarms[0].level, ReleaseAlarm::WARN);
+  EXPECT_EQ(status.alarms[0].latched, ReleaseAlarm::ALARM);
+  EXPECT_TRUE(status.alarms[0].acknowledged);
+  EXPECT_EQ(status.alarms[0].since, ros::Time(12.5));
+  EXPECT_EQ(status.alarms[0].value, 4.0);
+  EXPECT_EQ(status.alarms[0].unit, "s");
+  EXPECT_EQ(status.alarms[0].lead_time, 2.0);
+  EXPECT_EQ(status.alarms[0].message, "late");
+  EXPECT_EQ(first_non_finite(report), "");
+  alarm.value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(first_non_finite(report), "alarm lag");
 }
 
 TEST(Conversions, EveryOutcomeHasItsNumberOnTheWire)
@@ -136,7 +160,7 @@ TEST(Conversions, EveryOutcomeHasItsNumberOnTheWire)
   for (const auto& [outcome, number] : outcomes) {
     Progress progress = small_progress();
     progress.status.outcome = outcome;
-    EXPECT_EQ(to_release_status(progress, View()).outcome, number);
+    EXPECT_EQ(to_release_status(progress, {}, View()).outcome, number);
   }
 }
 

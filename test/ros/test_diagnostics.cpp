@@ -121,5 +121,49 @@ TEST(Diagnostics, OutputsSayWhatDidNotGoOut)
   EXPECT_NE(status.message.find("sand stress"), std::string::npos);
 }
 
+TEST(Diagnostics, AlarmsWarnByWhatIsLatchedAndNotInAReplay)
+{
+  AlarmReport report;
+  report.alarms.resize(2);
+  report.alarms[0].name = "sensor";
+  report.alarms[1].name = "lag";
+  DiagnosticStatusWrapper status;
+  describe_alarms(report, status);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(status.message, "no alarm");
+  report.alarms[1].latched = alarm::Level::warn;
+  report.alarms[1].message = "The prediction is 4.0 s behind the measurement";
+  DiagnosticStatusWrapper warned;
+  describe_alarms(report, warned);
+  EXPECT_EQ(warned.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(warned.message, "The prediction is 4.0 s behind the measurement (over)");
+  EXPECT_NE(value(warned, "lag").find("latched warn, not acknowledged"), std::string::npos);
+  report.alarms[0].level = report.alarms[0].latched = alarm::Level::alarm;
+  describe_alarms(report, warned);
+  EXPECT_EQ(warned.level, DiagnosticStatus::ERROR);
+  report.replay = true;
+  describe_alarms(report, warned);
+  EXPECT_EQ(warned.level, DiagnosticStatus::OK);
+  EXPECT_EQ(warned.message.find("[replay] "), 0u) << warned.message;
+}
+
+TEST(Diagnostics, TheCheckpointIsToldAndItsFailureWarns)
+{
+  Progress progress;
+  DiagnosticStatusWrapper without;
+  describe_simulation(progress, "release", 2, without);
+  EXPECT_EQ(value(without, "checkpoint"), "(no such key)");
+  progress.checkpoint_path = "state.h5";
+  progress.checkpoint_time_s = 2.5;
+  progress.checkpoint_error = "No space left on device";
+  progress.resume = "goes on at 2.000 s from state.h5";
+  DiagnosticStatusWrapper status;
+  describe_simulation(progress, "release", 2, status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_NE(status.message.find("No space left"), std::string::npos);
+  EXPECT_EQ(value(status, "checkpoint of time (s)"), "2.5");
+  EXPECT_EQ(value(status, "resume"), progress.resume);
+}
+
 }  // namespace
 }  // namespace geocontainer_mpm::ros_bridge

@@ -145,5 +145,31 @@ TEST(Parameters, OfForecastsThatDoNotFitAreNamedWithTheirDictionary)
   EXPECT_TRUE(contains(with("ensemble", ensemble), "~forecast/ensemble/distributions"));
 }
 
+TEST(Parameters, AlarmsAreADictionaryOfTheirOwn)
+{
+  XmlRpcValue tree = minimal();
+  tree["alarms"]["lag_warn_s"] = 1;
+  tree["alarms"]["lopsided_alarm_rad"] = 0.2;
+  const AlarmParameters alarms = parse_parameters(tree, "/node").alarms;
+  EXPECT_EQ(alarms.lag_s.warn, 1.0);
+  EXPECT_EQ(alarms.lopsided_rad.alarm, 0.2);
+  EXPECT_EQ(alarms.utilisation.alarm, 1.0);
+  const auto refused = [](const char* key, double value) {
+    XmlRpcValue one = minimal();
+    one["alarms"][key] = value;
+    return refusal(one);
+  };
+  EXPECT_TRUE(contains(refused("lag_alarm_s", 2.0), "~alarms/lag_alarm_s")) << refused("lag_alarm_s", 2.0);
+  EXPECT_TRUE(contains(refused("lag_alarm_s", 2.0), "must be greater than lag_warn_s"));
+  EXPECT_TRUE(contains(refused("band", 1.0), "~alarms/band"));
+  EXPECT_TRUE(contains(refused("lag_warn", 2.0), "~alarms/lag_warn"));
+}
+
+TEST(Parameters, TheCheckpointGoesIntoAFolderThatIsThere)
+{
+  EXPECT_TRUE(contains(refusal("checkpoint", "/no/such/folder/state.h5"), "~checkpoint"));
+  EXPECT_TRUE(contains(refusal("checkpoint_period_s", 0.0), "~checkpoint_period_s"));
+}
+
 }  // namespace
 }  // namespace geocontainer_mpm::ros_bridge

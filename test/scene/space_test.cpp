@@ -44,6 +44,9 @@ TEST(Space, ASeamAlongTheBargeIsAPointOfTheSection)
   const Result plane = fall(text("", ""));
   ASSERT_GT(plane.status.peak_utilisation_seam, plane.status.peak_utilisation_sheet);
   ASSERT_LT(plane.status.peak_utilisation_seam, 9.9 * plane.status.peak_utilisation_sheet) << "not where it is tensest";
+  EXPECT_EQ(plane.status.utilisation_sheet, plane.status.current_tension_n_per_m / 1.0e5) << "now";
+  EXPECT_GT(plane.status.utilisation_seam, 0.0);
+  EXPECT_LE(plane.status.utilisation_seam, plane.status.peak_utilisation_seam);
   for (const char* symmetry : { "none", "half" }) {
     const Result space =
         fall(text(fmt::format("space: {{ along_m: [0, 0.2], symmetry: {} }}", symmetry), "along_m: [0, 0.2],"));

@@ -22,6 +22,10 @@ std::uint64_t opening_hash(const std::vector<barge::OpeningSample>& samples);
 /// HDF5's C library keeps state for the whole process: see Recorder about threads.
 std::string save_checkpoint(const scene::Simulation& simulation, std::uint64_t opening, const std::string& path);
 
+/// The file's bytes, for who has to write them elsewhere (replace_file() in whole_file.h); empty where there is nothing
+/// to save yet. Throws std::exception when HDF5 fails.
+std::string checkpoint_bytes(const scene::Simulation& simulation, std::uint64_t opening);
+
 /// The run as it was saved, opening signal included. `scene` must be the checkpoint's, but for another `time.end_s`
 /// that is not before the saved state; where the old end lies between two output instants it must be the same, since
 /// the steps before it depend on it. `opening`: the log's hash, which must be the checkpoint's too; not given: not

@@ -15,6 +15,7 @@
 
 #include "geocontainer_mpm/ros/opening_conversion.h"
 #include "geocontainer_mpm/ros/progress.h"
+#include "geocontainer_mpm/ros/release_alarms.h"
 #include "geocontainer_mpm/scene/frame.h"
 
 namespace geocontainer_mpm::ros_bridge {
@@ -34,6 +35,7 @@ ros::Time to_time(std::int64_t stamp_ns, const ros::Time& before_first_sample);
 /// Names the first quantity that is not finite, or nothing: such a frame reaches no topic.
 std::string first_non_finite(const scene::Frame& frame);
 std::string first_non_finite(const Progress& progress);
+std::string first_non_finite(const AlarmReport& alarms);
 
 /// The outline of a closed sheet; an open one goes there and back, since a polygon joins its ends. In 3-D the section
 /// nearest midships.
@@ -44,7 +46,7 @@ GeotextileForces to_geotextile_forces(const scene::GeotextileFrame& sheet, const
 sensor_msgs::PointCloud2 to_soil_cloud(const scene::Frame& frame, const View& view, int stride);
 
 std::uint8_t to_message(scene::Outcome outcome);  ///< as in ReleaseStatus
-ReleaseStatus to_release_status(const Progress& progress, const View& view);
+ReleaseStatus to_release_status(const Progress& progress, const AlarmReport& alarms, const View& view);
 
 /// The filtered opening in use, for robot_state_publisher: joints `hull_port_joint` and `hull_starboard_joint`.
 sensor_msgs::JointState to_hull_joint_states(const barge::OpeningAngles& opening, const ros::Time& stamp);

@@ -10,6 +10,7 @@
 
 #include "geocontainer_mpm/ros/outputs.h"
 #include "geocontainer_mpm/ros/progress.h"
+#include "geocontainer_mpm/ros/release_alarms.h"
 
 namespace geocontainer_mpm::ros_bridge {
 
@@ -21,11 +22,14 @@ void describe_opening(const Progress& progress, const Progress& before, unsigned
                       diagnostic_updater::DiagnosticStatusWrapper& status);
 void describe_outputs(const OutputHealth& health, const OutputHealth& before,
                       diagnostic_updater::DiagnosticStatusWrapper& status);
+/// The worst level, what is latched included. Those of a replay are shown and are no reason to warn.
+void describe_alarms(const AlarmReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 struct DiagnosticSources {
   std::function<Progress()> progress;
   std::function<OutputHealth()> outputs;
   std::function<unsigned()> senders;
+  std::function<AlarmReport()> alarms;
 };
 
 class Diagnostics {
@@ -37,6 +41,7 @@ private:
   void simulation(diagnostic_updater::DiagnosticStatusWrapper& status);
   void opening(diagnostic_updater::DiagnosticStatusWrapper& status);
   void outputs(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void alarms(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::string scene_name_;
   int threads_;

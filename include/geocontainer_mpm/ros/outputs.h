@@ -29,14 +29,14 @@ public:
   Outputs(ros::NodeHandle& node, const NodeParameters& parameters);
 
   bool wanted() const;
-  void publish(const scene::Frame& frame, const Progress& progress);
-  void publish(const Progress& progress);  ///< status only
+  void publish(const scene::Frame& frame, const Progress& progress, const AlarmReport& alarms);
+  void publish(const Progress& progress, const AlarmReport& alarms);  ///< status only
   OutputHealth health() const;
 
 private:
   View view_of(const Progress& progress);
   bool refuse(const std::string& not_finite);
-  void publish_status(const Progress& progress, const View& view);
+  void publish_status(const Progress& progress, const AlarmReport& alarms, const View& view);
   void publish_joints(const Progress& progress);
 
   std::string fixed_frame_, barge_frame_;

@@ -9,6 +9,7 @@
 
 #include "geocontainer_mpm/forecast/forecaster.h"
 #include "geocontainer_mpm/ros/opening_conversion.h"
+#include "geocontainer_mpm/ros/release_alarms.h"
 
 namespace geocontainer_mpm::ros_bridge {
 
@@ -51,11 +52,15 @@ struct NodeParameters {
   double publish_rate_hz = 10.0;          ///< most frequent output by the wall clock, Hz, (0, 1000]
   int soil_stride = 1;                    ///< every how manyth soil particle is published, >= 1
 
-  std::string record;                ///< HDF5 file to which every frame is written; empty: none
-  std::string save_directory = ".";  ///< where ~save puts its files
-  double service_timeout_s = 5.0;    ///< longest wait of a service for the solver, s, > 0
-  double diagnostic_period = 1.0;    ///< wall-clock time between diagnostics, s, > 0
+  std::string record;                 ///< HDF5 file to which every frame is written; empty: none
+  std::string save_directory = ".";   ///< where ~save puts its files
+  std::string checkpoint;             ///< HDF5 file of the state to go on from after a kill; empty: none
+  double checkpoint_period_s = 10.0;  ///< wall-clock time between two of them, s, > 0
+  double resume_within_s = 600.0;     ///< a log that goes on later after the checkpoint is another one, s, > 0
+  double service_timeout_s = 5.0;     ///< longest wait of a service for the solver, s, > 0
+  double diagnostic_period = 1.0;     ///< wall-clock time between diagnostics, s, > 0
 
+  AlarmParameters alarms;
   ForecastParameters forecast;
 };
 

@@ -61,6 +61,14 @@ struct Progress {
   std::string record_path;     ///< empty: none
   std::string record_error;    ///< empty: none
   std::uint64_t recorded_frames = 0;
+  std::int64_t newest_stamp_ns = 0;     ///< of the newest accepted sample, in the log's epoch; 0 before the first
+  barge::OpeningAngles newest_opening;  ///< the newest that is certain, whatever the simulation's lag
+  std::string checkpoint_path;          ///< empty: none
+  std::string checkpoint_error;         ///< empty: none
+  double checkpoint_time_s = -1.0;      ///< simulated instant of the newest one; < 0: none
+  double checkpoint_cost_s = 0.0;       ///< most that one has cost the run, processor time, s
+  std::string resume;                   ///< what became of the checkpoint that was found; empty: none was
+  std::uint64_t known_again = 0;        ///< samples of the log that are from before the checkpoint
 };
 
 }  // namespace geocontainer_mpm::ros_bridge

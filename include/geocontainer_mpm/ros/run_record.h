@@ -22,6 +22,10 @@ public:
   void write(const scene::Frame& frame);  ///< keeps each instant once
   void begin_run(std::uint64_t run);      ///< closes the file of the run before; the next frame opens a new one
 
+  /// A number from which on no file of a run is there yet, so that a node that begins anew overwrites nothing; 1
+  /// without a record.
+  std::uint64_t free_run() const;
+
   std::string path() const { return path_.empty() ? path_ : path_of(run_); }
   const std::string& error() const { return error_; }
   std::uint64_t frames() const { return recorder_ ? recorder_->frames() : 0; }

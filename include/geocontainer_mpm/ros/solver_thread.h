@@ -16,6 +16,7 @@
 #include "geocontainer_mpm/ros/opening_gate.h"
 #include "geocontainer_mpm/ros/opening_input.h"
 #include "geocontainer_mpm/ros/progress.h"
+#include "geocontainer_mpm/ros/run_checkpoint.h"
 #include "geocontainer_mpm/ros/run_record.h"
 #include "geocontainer_mpm/scene/simulation.h"
 
@@ -28,6 +29,12 @@ struct SolverSettings {
   double publish_rate_hz = 10.0;
   int threads = 1;                   ///< for the summary only
   std::string save_directory = ".";  ///< of ~save
+  std::string checkpoint;            ///< file of the state to go on from; empty: none
+  double checkpoint_period_s = 10.0;
+  bool resumed = false;            ///< the simulation is one that goes on (begin_or_resume())
+  std::string resume;              ///< what became of the checkpoint that was found, for the progress
+  double resume_within_s = 600.0;  ///< a log that goes on later than this after the checkpoint's is another one
+  std::uint64_t first_run = 1;     ///< number of the run
 };
 
 /// Called on the solver thread, `now_ns` and `senders` at every turn of its loop.
@@ -37,6 +44,7 @@ struct SolverHooks {
   std::function<bool()> frame_wanted;    ///< does anybody read frames
   std::function<void(const scene::Frame&, const Progress&)> frame;
   std::function<void(const Progress&)> progress;     ///< where a frame is not wanted
+  std::function<void(const std::string&)> notice;    ///< one sentence for the log; may be empty
   std::function<void(std::uint64_t run)> restarted;  ///< may be empty
   forecast::Forecaster* forecaster = nullptr;        ///< is told what it needs; none: no forecasts
 };
@@ -59,6 +67,7 @@ public:
   std::future<Reply> start();
   std::future<Reply> stop();
   std::future<Reply> save();
+  std::future<Reply> announce();  ///< nothing but that the progress is handed out again
 
   Progress progress() const;
 
@@ -77,13 +86,16 @@ private:
   void give_state_ahead();
   void notice_silence(std::int64_t now_ns);
   void notice_end_of_log();
+  void take(const barge::OpeningSample& sample);
   void advance();
   int steps_per_call() const;
+  void give_up_resumed();
   void restart();
 
   void deliver(bool frame_is_due);
   void refresh_progress(const scene::Frame* frame);
   void set_state(RunState state);
+  double stepped_s() const;
   Reply save_now();
 
   scene::Simulation simulation_;
@@ -92,13 +104,18 @@ private:
   SolverSettings settings_;
   SolverHooks hooks_;
   OpeningGate gate_;
+  RunCheckpoint checkpoint_;
+  std::string resume_;  ///< what became of the checkpoint that was found
 
   // Of the run; cleared by restart().
   RunState state_ = RunState::waiting_for_opening;
   std::uint64_t run_ = 1;
   RejectedCounts rejected_at_gate_{};
   std::uint64_t dropped_before_ = 0;
+  ResumedLog resumed_log_;
+  std::uint64_t known_again_ = 0;     ///< samples from before the checkpoint
   std::int64_t stepping_ns_ = 0;      ///< wall-clock time spent in advance()
+  double stepped_before_s_ = 0.0;     ///< simulated time before the resume, rest not counted
   std::int64_t last_arrival_ns_ = 0;  ///< steady clock
   std::int64_t no_sender_since_ns_ = 0;
   bool had_sender_ = false;

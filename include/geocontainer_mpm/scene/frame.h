@@ -117,6 +117,8 @@ struct ContainerState {
   double peak_tension_time_s = 0.0;
   Vec3 peak_tension_position_m = Vec3::Zero();
   double current_tension_n_per_m = 0.0;                  ///< largest gauge tension now
+  double utilisation_sheet = 0.0;                        ///< largest gauge tension over the sheet's strength now
+  double utilisation_seam = 0.0;                         ///< the same at the seams, over theirs
   double elongation_max = 0.0;                           ///< largest strain of the sheet so far
   double peak_utilisation_sheet = 0.0;                   ///< largest gauge tension over the sheet's strength so far
   double peak_utilisation_seam = 0.0;                    ///< the same at the seams, over theirs
