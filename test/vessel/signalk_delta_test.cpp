@@ -108,20 +108,23 @@ RC_GTEST_PROP(Delta, ColumnsSurviveAndOtherObjectsAreNothing, ())
 TEST(Figures, WhatIsNotKnownIsNull)
 {
   for (const PathValue& value : to_values(ensemble_figures(), EnsembleFigures{}, "c"))
-    if (value.path != "c.advice.state" && value.path != "c.advice.message")
+    if (value.path != "c.advice.state" && value.path != "c.advice.message") {
       EXPECT_EQ(value.value, Value()) << value.path;
+    }
   ForecastFigures forecast;
   forecast.until_release_s = 5.0;  // of no release
   for (const PathValue& value : to_values(forecast_figures(), forecast, "c"))
-    if (value.path.find("forecast.release.") != std::string::npos)
+    if (value.path.find("forecast.release.") != std::string::npos) {
       EXPECT_EQ(value.value, Value()) << value.path;
+    }
   EnsembleFigures ensemble;
   ensemble.release_delay_s.p90 = std::numeric_limits<double>::infinity();
   ensemble.advised_rate_rad_per_s = 0.01;
   ensemble.advice = AdviceState::no_rate;
   for (const PathValue& value : to_values(ensemble_figures(), ensemble, "c"))
-    if (value.path == "c.ensemble.release.p90" || value.path == "c.advice.rate")
+    if (value.path == "c.ensemble.release.p90" || value.path == "c.advice.rate") {
       EXPECT_EQ(value.value, Value()) << value.path;
+    }
 }
 
 RC_GTEST_PROP(Figures, AThinCurveKeepsEndsAndPeak, ())

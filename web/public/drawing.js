@@ -111,7 +111,7 @@ function drawChart (svg, chart) {
   if (chart.release !== null && chart.release > chart.now && chart.release < chart.now + AHEAD_S) {
     const out = x(chart.release)
     parts.push(line(out, top, out, below, 'stroke="var(--forecast)" stroke-width="3" stroke-dasharray="4 6"'))
-    parts.push(label(out + 6, below - 6, 'out', 'start'))
+    parts.push(label(out + 6, (top + below) / 2, 'out', 'start'))
   }
   const ahead = chart.curve.filter(p => p[0] >= chart.now && p[0] <= chart.now + AHEAD_S)
   parts.push(curve(ahead, 'stroke="var(--forecast)" stroke-width="4" stroke-dasharray="12 6"'))

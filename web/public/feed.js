@@ -70,7 +70,6 @@ function openFeed (address, onChange) {
     if (socket && performance.now() - Math.max(feed.heard, opened) > longestSilence) {
       const dead = socket
       socket = null
-      feed.connected = false
       dead.close()
       connect()
     }

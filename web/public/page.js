@@ -27,7 +27,8 @@ const kilo = newton => (newton / 1000).toFixed(1) + ' kN/m'
 const isNumber = value => typeof value === 'number' && Number.isFinite(value)
 
 function duration (seconds) {
-  const whole = Math.max(0, Math.round(seconds))
+  const whole = Math.round(seconds)
+  if (whole <= 0) return 'now'
   return whole < 100 ? `${whole} s` : `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')} min`
 }
 
@@ -208,7 +209,7 @@ function watch (feed) {
   document.body.classList.toggle('old', old)
   if (old) {
     element('no-data').textContent = `NO DATA for ${Math.floor(silence / 1000)} s` +
-      (feed.connected ? '' : ' – no connection to the vessel’s server') + ' – do not rely on this screen'
+      (feed.connected ? ' – do not rely on this screen' : ' – no connection to the server')
   }
 }
 
