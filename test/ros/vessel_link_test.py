@@ -263,10 +263,12 @@ class VesselLinkTest(unittest.TestCase):
         self.assertNotIn("notifications." + PREFIX + "release", recorder.values)
 
     def test_a_replay_is_marked_and_raises_nothing(self):
+        diagnostics = NodeDiagnostics()
         recorder, parameters = self.server()
         live = self.start("live_link", parameters)
         publisher = self.publisher("/release_status", ReleaseStatus)
         publisher.publish(status_with(hung_up(ReleaseAlarm.ALARM), replay=True, current_tension=1.0))
+        diagnostics.wait(lambda d: d.value("vessel link", "statuses of a replay, not sent") == "1", 30.0, "withheld")
         publisher.publish(status_with(current_tension=2.0))
         recorder.wait(self, PREFIX + "tension.current", 2.0)  # the replay's was before it
         self.assertNotIn("notifications." + PREFIX + "hung_up", recorder.values)
