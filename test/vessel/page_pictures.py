@@ -9,7 +9,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "script")]
 PROGRAM, RECORD, FOLDER = sys.argv[1:4]
-UNTIL = float(sys.argv[4]) if len(sys.argv) > 4 else 15.5
+UNTIL = float(sys.argv[4]) if len(sys.argv) > 4 else 14.5
 sys.argv[1:] = [PROGRAM, os.path.join(HERE, "..", "..", "web")]
 import numpy as np  # noqa: E402
 from record_file import Record  # noqa: E402

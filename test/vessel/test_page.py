@@ -46,13 +46,13 @@ def iso(instant):
 
 
 def release():
-    """Half way through a release, and what is expected of the rest of it."""
+    """Half way through a release, and what is expected of the rest of it; far ahead, since a busy machine takes its time."""
     now = time.time()
     return {
         "hull.port.opening": 0.2071, "hull.starboard.opening": 0.1994, "release.state": "releasing",
         "release.message": "Half of the container is below the lips",
         "tension.current": 41234.5, "tension.peak": 52345.25, "utilisation.peak": 0.26172625, "lag": 0.05,
-        "forecast.state": "fresh", "forecast.outcome": "released", "forecast.release.instant": iso(now + 42.4),
+        "forecast.state": "fresh", "forecast.outcome": "released", "forecast.release.instant": iso(now + 1800.4),
         "forecast.tension.peak": 61500.0, "forecast.utilisation.peak": 0.3075,
         "forecast.curve": {"time": [round(now, 3), round(now + 30.0, 3)], "tension": [41000.0, 61500.0]},
         "ensemble.tension.p10": 55000.0, "ensemble.tension.p90": 74000.0,
@@ -148,8 +148,14 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.text("load-expected"), "of its strength · will reach 31 % · likely 28 % to 37 %")
         self.assertEqual(self.text("advice-words"), "Open no faster than 0.80°/s")
         self.assertEqual(self.text("pull-now"), "now 41.2 kN/m · highest 52.3 kN/m")
-        self.assertRegex(self.text("out-in"), r"^[34]\d s$")  # counting down from 42
-        self.assertRegex(self.text("out-band"), r"^likely [34]\d s to [45]\d s · chance to get stuck 6 %$")
+        self.assertEqual(self.text("out-band"), "likely 38 s to 55 s · chance to get stuck 6 %")
+        # It counts down by the clock that it shows, in whole seconds.
+        shown, clock = self.browser.execute_script(
+            "return ['out-in', 'clock'].map(id => document.getElementById(id).textContent)")
+        instant = datetime.fromisoformat(self.values["forecast.release.instant"].replace("Z", "+00:00"))
+        hour, minute, second = (int(part) for part in clock.removesuffix(" UTC").split(":"))
+        left = (instant - instant.replace(hour=hour, minute=minute, second=second, microsecond=0)).total_seconds() % 86400
+        self.assertIn(shown, {f"{whole // 60}:{whole % 60:02} min" for whole in (round(left - 1), round(left - 0.5), round(left))})
 
     def test_hosted_by_the_server_it_shows_what_was_sent(self):
         self.browser.get_log("browser")  # what other tests did to the server
@@ -215,7 +221,7 @@ class PageTest(unittest.TestCase):
 
     def test_a_lost_connection_is_seen_within_three_seconds(self):
         self.shows("port", "11.9°")
-        self.assertEqual(self.banner(), "")
+        eventually(lambda: self.banner() == "", "no banner")
         self.browser.execute_script(self.WATCH)
         self.server.signal(signal.SIGSTOP)
         try:

@@ -2,7 +2,7 @@
 // What the superintendent sees. Words and numbers are those of the server; nothing is computed here but countdowns, the
 // speed of opening and units.
 
-const NO_DATA_AFTER = 2500 // ms; it has to be seen within 3 s
+const NO_DATA_AFTER = 2000 // ms; it has to be seen within 3 s, on a slow tablet too
 const OLD_FORECAST = 30 // s; an older one is not shown as if it were of now
 const OLD_ENSEMBLE = 60 // s
 
