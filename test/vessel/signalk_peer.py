@@ -67,8 +67,9 @@ class Peer:
 
 
 def frames_of(connection):
-    """Payloads of the client's text frames (masked, RFC 6455, 5.3); answers pings."""
+    """The client's texts (masked frames, a long one in several: RFC 6455, 5.3 and 5.4); answers pings."""
     buffer = b""
+    text = b""
 
     def need(count):
         nonlocal buffer
@@ -87,8 +88,11 @@ def frames_of(connection):
         payload = bytes(byte ^ mask[i % 4] for i, byte in enumerate(data))
         if first & 15 == 9:
             connection.sendall(frame(payload, 10))
-        elif first & 15 == 1:
-            yield payload.decode()
+        elif first & 15 in (0, 1):
+            text += payload
+            if first & 128:
+                yield text.decode()
+                text = b""
 
 
 def echo(connection):

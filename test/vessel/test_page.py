@@ -155,7 +155,7 @@ class PageTest(unittest.TestCase):
         instant = datetime.fromisoformat(self.values["forecast.release.instant"].replace("Z", "+00:00"))
         hour, minute, second = (int(part) for part in clock.removesuffix(" UTC").split(":"))
         left = (instant - instant.replace(hour=hour, minute=minute, second=second, microsecond=0)).total_seconds() % 86400
-        self.assertIn(shown, {f"{whole // 60}:{whole % 60:02} min" for whole in (round(left - 1), round(left - 0.5), round(left))})
+        self.assertIn(shown, {f"{whole // 60}:{whole % 60:02}" for whole in (round(left - 1), round(left - 0.5), round(left))})
 
     def test_hosted_by_the_server_it_shows_what_was_sent(self):
         self.browser.get_log("browser")  # what other tests did to the server

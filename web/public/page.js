@@ -29,7 +29,7 @@ const isNumber = value => typeof value === 'number' && Number.isFinite(value)
 function duration (seconds) {
   const whole = Math.round(seconds)
   if (whole <= 0) return 'now'
-  return whole < 100 ? `${whole} s` : `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')} min`
+  return whole < 100 ? `${whole} s` : `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`
 }
 
 function reader (feed) {
