@@ -89,7 +89,7 @@ class Server:
         with open(os.path.join(self.directory, name), "w", encoding="utf-8") as file:
             json.dump(content, file)
 
-    def start(self, limit_s=150.0):
+    def start(self, limit_s=300.0):
         if self.socket is None:  # the killed server had the only other copy
             self.socket = socket.socket()
             self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -190,10 +190,11 @@ class Probe:
 
 
 def eventually(condition, what, limit_s=60.0):
+    """`what`: words, or a function that says at the end what is missing."""
     end = time.monotonic() + limit_s
     while True:
         result = condition()
         if result:
             return result
-        assert time.monotonic() < end, f"not within {limit_s} s: {what}"
+        assert time.monotonic() < end, f"not within {limit_s} s: {what() if callable(what) else what}"
         time.sleep(0.1)

@@ -210,6 +210,10 @@ class PageTest(unittest.TestCase):
         self.sender.alarm("lag", "normal", "")
         eventually(lambda: self.alarms() == [["", "none", "No alarms"]], f"no alarms; {self.alarms()}")
 
+    def what_is_heard(self):
+        return f"the banner {self.banner()!r}; " + self.browser.execute_script(
+            "return JSON.stringify([feed.connected, performance.now() - feed.heard, performance.now(), document.title])")
+
     def banner(self):
         element = self.browser.find_element(By.ID, "no-data")
         return element.text if element.is_displayed() else ""
@@ -245,10 +249,12 @@ class PageTest(unittest.TestCase):
     def test_a_link_that_has_ended_is_seen(self):
         self.shows("port", "11.9°")
         self.sender.close()
-        eventually(lambda: self.banner().startswith("NO DATA for"), "the banner")
+        eventually(lambda: self.banner().startswith("NO DATA for"), self.what_is_heard)
         self.assertNotIn("no connection", self.banner())
         self.open_hosted()  # the server still has the last values: they must not pass for new ones
         eventually(lambda: self.banner().startswith("NO DATA for"), "the banner of a page opened later")
+        # It connects anew after ten seconds of silence, and is told the old values once more.
+        eventually(lambda: int(self.banner().split()[3]) >= 13, "it stays")
 
     def test_day_and_night(self):
         ground = "return getComputedStyle(document.body).backgroundColor"

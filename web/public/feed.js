@@ -20,32 +20,35 @@ function openFeed (address, onChange) {
   const longestSilence = 10e3 // ms; then the connection is thought to be dead, whatever the socket says
   let socket = null
   let opened = 0
+  let told = new Set() // paths, on this connection
 
+  /** True when it is live: the first value of a path may be an old one that the server keeps, and a status at rest keeps its stamp. */
   function take (path, value, time, source) {
+    const live = told.has(path)
+    told.add(path)
     if (path.startsWith(`notifications.${PREFIX}.`)) feed.notices.set(path.slice(15 + PREFIX.length), value)
     else if (path.startsWith(PREFIX + '.')) feed.values.set(path.slice(PREFIX.length + 1), { value, time, source })
-    else return false
-    return true
+    return live
   }
 
   function read (text) {
     let message
     try { message = JSON.parse(text) } catch { return }
-    let any = false
+    let live = false
     for (const update of message.updates || []) {
       const time = Date.parse(update.timestamp)
-      for (const entry of update.values || []) any = take(entry.path, entry.value, time, update.$source || '') || any
+      for (const entry of update.values || []) live = take(entry.path, entry.value, time, update.$source || '') || live
       for (const entry of update.meta || []) {
         if (entry.path.startsWith(PREFIX + '.')) feed.meta.set(entry.path.slice(PREFIX.length + 1), entry.value)
       }
     }
-    if (!any) return
-    feed.heard = performance.now()
+    if (live) feed.heard = performance.now()
     onChange(feed)
   }
 
   function connect () {
     opened = performance.now()
+    told = new Set()
     socket = new WebSocket(address)
     const mine = socket
     mine.onopen = () => {
