@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -79,6 +80,23 @@ public:
       values.push_back(static_cast<std::string&>(expect(key, (*found)[i], XmlRpcValue::TypeString, allowed)));
   }
 
+  /// Points [y, z], m; replaces what is there.
+  void read(const char* key, std::vector<std::array<double, 2>>& points)
+  {
+    const auto found = find(key);
+    if (!found)
+      return;
+    const char* const allowed = "must be a list of points [y, z], m";
+    expect(key, *found, XmlRpcValue::TypeArray, allowed);
+    points.clear();
+    for (int i = 0; i < found->size(); ++i) {
+      XmlRpcValue& point = expect(key, (*found)[i], XmlRpcValue::TypeArray, allowed);
+      if (point.size() != 2)
+        fail(key, *found, allowed);
+      points.push_back({ number(key, point[0], allowed), number(key, point[1], allowed) });
+    }
+  }
+
   /// A reader of the dictionary under this key; of an empty one when there is none.
   ParameterReader dictionary(const char* key)
   {
@@ -129,6 +147,16 @@ private:
     if (value.getType() != type)
       fail(key, value, allowed);
     return value;
+  }
+
+  double number(const std::string& key, XmlRpcValue& value, const std::string& allowed) const
+  {
+    if (value.getType() == XmlRpcValue::TypeInt)
+      return static_cast<int&>(value);
+    const double read = expect(key, value, XmlRpcValue::TypeDouble, allowed);
+    if (!std::isfinite(read))
+      fail(key, value, allowed);
+    return read;
   }
 
   std::string joined() const

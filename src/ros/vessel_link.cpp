@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 #include <geocontainer_mpm/HullOpening.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/console.h>
+#include <tf2/exceptions.h>
 
+#include <Eigen/Geometry>
 #include <boost/function.hpp>
 #include <string>
 #include <utility>
@@ -13,10 +16,12 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
-using vessel::NmeaFault;
 using vessel::Stamp;
 
 constexpr const char* release_notice_path = ".release";
+constexpr const char* hull_path = ".hull.section";
+/// The outline is the longest value by far, and is looked at by eyes.
+constexpr std::chrono::milliseconds outline_period{ 500 };
 
 Stamp to_stamp(const ros::Time& time)
 {
@@ -35,20 +40,13 @@ std::chrono::nanoseconds to_duration(double seconds)
   return std::chrono::nanoseconds(static_cast<std::chrono::nanoseconds::rep>(1e9 * seconds));
 }
 
-vessel::ReleaseState to_state(std::uint8_t outcome)
+Eigen::Isometry3d to_pose(const geometry_msgs::Transform& transform)
 {
-  switch (outcome) {
-    case ReleaseStatus::WAITING:
-      return vessel::ReleaseState::waiting;
-    case ReleaseStatus::RELEASING:
-      return vessel::ReleaseState::releasing;
-    case ReleaseStatus::RELEASED:
-      return vessel::ReleaseState::released;
-    case ReleaseStatus::HUNG_UP:
-      return vessel::ReleaseState::hung_up;
-    default:
-      return vessel::ReleaseState::none;
-  }
+  const geometry_msgs::Quaternion& rotation = transform.rotation;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond(rotation.w, rotation.x, rotation.y, rotation.z).normalized().toRotationMatrix();
+  pose.translation() << transform.translation.x, transform.translation.y, transform.translation.z;
+  return pose;
 }
 
 template <typename Value>
@@ -59,92 +57,20 @@ void add(DiagnosticStatusWrapper& status, const std::string& key, const Value& v
 
 }  // namespace
 
-vessel::ReleaseFigures to_figures(const ReleaseStatus& status)
-{
-  vessel::ReleaseFigures figures;
-  figures.stamp = to_stamp(status.header.stamp);
-  figures.state = to_state(status.outcome);
-  figures.resting = status.resting;
-  figures.stopped = status.stopped;
-  figures.message = status.message;
-  figures.port_rad = status.port;
-  figures.starboard_rad = status.starboard;
-  figures.current_tension_n_per_m = status.current_tension;
-  figures.peak_tension_n_per_m = status.peak_tension;
-  figures.peak_utilisation = status.peak_utilisation;
-  figures.centroid_m = { status.centroid.x, status.centroid.y, status.centroid.z };
-  figures.width_m = status.width;
-  figures.height_m = status.height;
-  figures.release_time_s = status.release_time.toSec();
-  figures.lag_s = status.lag;
-  return figures;
-}
-
-void describe_signalk(const vessel::SignalKHealth& health, const vessel::SignalKHealth& before,
-                      DiagnosticStatusWrapper& status)
-{
-  status.summary(DiagnosticStatus::OK, to_string(health.state));
-  if (health.state != vessel::LinkState::open)
-    status.summary(DiagnosticStatus::WARN, fmt::format("{}: {}", to_string(health.state), health.last_error));
-  else if (health.confirmation == vessel::Confirmation::unconfirmed)
-    status.summary(DiagnosticStatus::WARN,
-                   fmt::format("unconfirmed: the server does not show {}; a server with security on drops what comes "
-                               "without a token that may write",
-                               health.oldest_unconfirmed));
-  if (health.bad_messages > before.bad_messages)
-    status.mergeSummary(DiagnosticStatus::WARN,
-                        fmt::format("{} messages were not Signal K", health.bad_messages - before.bad_messages));
-  add(status, "state", to_string(health.state));
-  add(status, "confirmation", to_string(health.confirmation));
-  add(status, "connections", health.connections);
-  add(status, "failures", health.failures);
-  add(status, "last error", health.last_error);
-  add(status, "messages sent", health.messages_sent);
-  add(status, "values sent", health.values_sent);
-  add(status, "values confirmed", health.values_confirmed);
-  add(status, "values replaced before they were sent", health.values_replaced);
-  add(status, "values received", health.values_received);
-  add(status, "bad messages", health.bad_messages);
-}
-
-void describe_nmea_port(const vessel::NmeaPortHealth& health, const vessel::NmeaPortHealth& before,
-                        vessel::NmeaTransport transport, int bound_port, DiagnosticStatusWrapper& status)
-{
-  status.summary(DiagnosticStatus::OK, to_string(transport));
-  if (transport == vessel::NmeaTransport::tcp_client && health.peers == 0)
-    status.summary(DiagnosticStatus::WARN, "not connected: " + health.last_error);
-  std::string fresh;
-  for (std::size_t i = 0; i < vessel::nmea_fault_count; ++i)
-    if (const std::uint64_t count = health.counts.faults[i] - before.counts.faults[i]; count > 0)
-      fresh += fmt::format("{}{} {}", fresh.empty() ? "" : ", ", count, to_string(static_cast<NmeaFault>(i)));
-  if (!fresh.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, "ignored: " + fresh);
-  add(status, "bound port", bound_port);
-  add(status, "peers", health.peers);
-  add(status, "connections", health.connections);
-  add(status, "failures", health.failures);
-  add(status, "last error", health.last_error);
-  add(status, "bytes in", health.bytes_in);
-  add(status, "sentences in", health.counts.sentences);
-  add(status, "hull angles in", health.counts.angles);
-  for (std::size_t i = 0; i < vessel::nmea_fault_count; ++i)
-    add(status, std::string("ignored: ") + to_string(static_cast<NmeaFault>(i)), health.counts.faults[i]);
-  add(status, "texts sent", health.sent);
-  add(status, "texts dropped", health.dropped);
-}
-
 VesselLink::VesselLink(ros::NodeHandle node, const ros::NodeHandle& private_node)
     : parameters_(load_vessel_parameters(private_node))
     , replay_(ros::Time::isSimTime())
     , signalk_pair_(to_duration(parameters_.pair_within_s))
+    , listener_(transforms_, node, false)  // no thread of its own: the node spins anyway
     , updater_(node, private_node)
 {
   if (parameters_.hull_angles != AngleSource::none)
     opening_ = node.advertise<HullOpening>("hull_opening", 100);
+  transforms_.setUsingDedicatedThread(true);
   updater_.setHardwareID("none");
   updater_.add("vessel link", this, &VesselLink::describe);
   if (parameters_.signalk.enabled)
-    open_signalk();
+    open_signalk(node);
   for (const VesselNmeaPort& port : parameters_.nmea)
     open_port(port);
   // The newest status is enough: what is sent is a state.
@@ -154,15 +80,20 @@ VesselLink::VesselLink(ros::NodeHandle node, const ros::NodeHandle& private_node
                                 [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
-void VesselLink::open_signalk()
+void VesselLink::open_signalk(ros::NodeHandle& node)
 {
   VesselSignalK& signalk = parameters_.signalk;
   if (replay_)
     signalk.server.source += ".replay";
   auto announced = vessel::describe_figures(signalk.path_prefix, replay_ ? 0.0 : signalk.utilisation_warn,
                                             replay_ ? 0.0 : signalk.utilisation_alarm);
-  if (!replay_)
-    announced.push_back({ "notifications." + signalk.path_prefix + release_notice_path, "", "", {} });
+  if (!replay_) {
+    announced.push_back({ notice_path(release_notice_path), "", "", {} });
+    for (const vessel::AlarmKind& kind : vessel::alarm_kinds())
+      announced.push_back({ notice_path(std::string(".") + kind.name), "", "", {} });
+  }
+  announced.push_back(
+      { signalk.path_prefix + hull_path, "", "Port half of the hull, closed, and its hinge, for pictures", {} });
   std::vector<std::string> inputs;
   if (parameters_.hull_angles == AngleSource::signalk)
     inputs = { signalk.port_path, signalk.starboard_path };
@@ -173,6 +104,62 @@ void VesselLink::open_signalk()
     describe_signalk(health, signalk_before_, status);
     signalk_before_ = health;
   });
+  if (!replay_ || parameters_.send_replays)
+    signalk_->send({ { signalk.path_prefix + hull_path, vessel::Value(signalk.section.columns()),
+                       std::chrono::system_clock::now() } });
+
+  const boost::function<void(const ReleaseForecast&)> take_forecast = [this](const ReleaseForecast& message) {
+    send(vessel::forecast_figures(), to_figures(message));
+  };
+  const boost::function<void(const ReleaseEnsemble&)> take_ensemble = [this](const ReleaseEnsemble& message) {
+    send(vessel::ensemble_figures(), to_figures(message));
+  };
+  const boost::function<void(const GeotextileForces&)> take_forces = [this](const GeotextileForces& message) {
+    on_forces(message);
+  };
+  forecast_ = node.subscribe<ReleaseForecast, const ReleaseForecast&>("release_forecast", 1, take_forecast);
+  ensemble_ = node.subscribe<ReleaseEnsemble, const ReleaseEnsemble&>("release_ensemble", 1, take_ensemble);
+  forces_ = node.subscribe<GeotextileForces, const GeotextileForces&>("geotextile_forces", 10, take_forces);
+}
+
+std::string VesselLink::notice_path(const std::string& name) const
+{
+  return "notifications." + parameters_.signalk.path_prefix + name;
+}
+
+template <typename Source>
+void VesselLink::send(const std::vector<vessel::Figure<Source>>& table, const Source& figures)
+{
+  if (!withholds(replay_heard_))
+    signalk_->send(vessel::to_values(table, figures, parameters_.signalk.path_prefix));
+}
+
+/// A replay that is heard by a link which does not know that it is in one could not be marked: it is never sent.
+bool VesselLink::withholds(bool replay) const
+{
+  return replay_ ? !parameters_.send_replays : replay;
+}
+
+void VesselLink::on_forces(const GeotextileForces& message)
+{
+  const auto now = std::chrono::steady_clock::now();
+  const std::string& wanted = parameters_.signalk.section.geotextile;
+  // In three dimensions there is no one outline.
+  if (now < next_outline_ || !message.triangles.empty() || (!wanted.empty() && message.name != wanted))
+    return;
+  Eigen::Isometry3d to_barge = Eigen::Isometry3d::Identity();
+  if (message.header.frame_id != parameters_.barge_frame) {
+    try {
+      const auto transform =
+          transforms_.lookupTransform(parameters_.barge_frame, message.header.frame_id, message.header.stamp);
+      to_barge = to_pose(transform.transform);
+    } catch (const tf2::TransformException& error) {
+      ++without_transform_;
+      return;
+    }
+  }
+  next_outline_ = now + outline_period;
+  send(vessel::section_figures(), to_section(message, to_barge));
 }
 
 void VesselLink::open_port(const VesselNmeaPort& parameters)
@@ -194,19 +181,24 @@ void VesselLink::open_port(const VesselNmeaPort& parameters)
 void VesselLink::on_status(const ReleaseStatus& message)
 {
   ++heard_;
-  if (replay_ && !parameters_.send_replays) {
+  replay_heard_ = message.replay != 0;
+  if (withholds(replay_heard_)) {
     ++withheld_;
     return;
   }
   const vessel::ReleaseFigures figures = to_figures(message);
+  const std::vector<vessel::Alarm> alarms = replay_ ? std::vector<vessel::Alarm>() : to_alarms(message);
   if (signalk_) {
-    auto values = vessel::to_values(figures, parameters_.signalk.path_prefix);
-    if (!replay_)
-      values.push_back({ "notifications." + parameters_.signalk.path_prefix + release_notice_path,
-                         vessel::release_notice(figures), figures.stamp });
+    auto values = vessel::to_values(vessel::release_figures(), figures, parameters_.signalk.path_prefix);
+    for (const vessel::Alarm& alarm : alarms)
+      values.push_back({ notice_path("." + alarm.name), vessel::to_notice(alarm), figures.stamp });
+    // A status without alarms is not left without any.
+    if (!replay_ && alarms.empty())
+      values.push_back({ notice_path(release_notice_path), vessel::release_notice(figures), figures.stamp });
     signalk_->send(values);
   }
-  const std::string release = vessel::write_release(figures);
+  const std::string release = vessel::write_release(figures) +
+                              alarm_sentences_.due(alarms, std::chrono::steady_clock::now(), parameters_.names);
   std::string angles;
   for (const std::string& sentence :
        vessel::write_hull_angles(figures.port_rad, figures.starboard_rad, parameters_.names))
@@ -264,6 +256,7 @@ void VesselLink::describe(Status& status)
   add(status, "statuses heard", heard_.load());
   add(status, "statuses of a replay, not sent", withheld_.load());
   add(status, "hull openings published", published_.load());
+  add(status, "outlines without a transform", without_transform_.load());
   add(status, "Signal K angles not believed (age, type)", unbelieved_.load());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -59,6 +60,21 @@ AngleSource read_angle_source(ParameterReader& reader)
   return text == "nmea" ? AngleSource::nmea : text == "signalk" ? AngleSource::signalk : AngleSource::none;
 }
 
+VesselSection read_section(ParameterReader reader)
+{
+  VesselSection section;
+  std::vector<std::array<double, 2>> hinge = { section.hinge_m };
+  reader.read("geotextile", section.geotextile);
+  reader.read("hinge_m", hinge);
+  reader.read("port_section_m", section.port_section_m);
+  reader.read("bed_z_m", section.bed_z_m, -unlimited, unlimited);
+  reader.refuse_unknown();
+  require(reader, hinge.size() == 1, "hinge_m", "", "must be a list of one point [y, z], m");
+  require(reader, section.port_section_m.size() >= 2, "port_section_m", "", "must have at least two points");
+  section.hinge_m = hinge.front();
+  return section;
+}
+
 VesselSignalK read_signalk(ParameterReader reader, AngleSource hull_angles, const std::string& source)
 {
   VesselSignalK signalk;
@@ -83,6 +99,7 @@ VesselSignalK read_signalk(ParameterReader reader, AngleSource hull_angles, cons
   reader.read("port_path", signalk.port_path);
   reader.read("starboard_path", signalk.starboard_path);
   reader.read("max_age_s", signalk.max_age_s, 0.0, 3600.0);
+  signalk.section = read_section(reader.dictionary("section"));
   reader.refuse_unknown();
 
   require(reader, is_path(signalk.path_prefix), "path_prefix", signalk.path_prefix,
@@ -137,6 +154,18 @@ VesselNmeaPort read_port(ParameterReader& reader, AngleSource hull_angles, const
 }
 
 }  // namespace
+
+vessel::Columns VesselSection::columns() const
+{
+  vessel::Columns columns{ { "hinge", { hinge_m[0], hinge_m[1] } } };
+  for (const auto& [y, z] : port_section_m) {
+    columns["y"].push_back(y);
+    columns["z"].push_back(z);
+  }
+  if (std::isfinite(bed_z_m))
+    columns["bed"] = { bed_z_m };
+  return columns;
+}
 
 VesselLinkParameters parse_vessel_parameters(const XmlRpcValue& tree, const std::string& source)
 {

@@ -15,6 +15,19 @@ Stamp to_milliseconds(Stamp stamp)
   return Stamp(std::chrono::floor<std::chrono::milliseconds>(stamp.time_since_epoch()));
 }
 
+/// JSON has no other numbers: they would go out as null and come back as something else.
+bool all_finite(const Value& value)
+{
+  const auto finite = [](double number) { return std::isfinite(number); };
+  if (const auto* number = std::get_if<double>(&value))
+    return finite(*number);
+  if (const auto* columns = std::get_if<Columns>(&value))
+    return std::all_of(columns->begin(), columns->end(), [&](const auto& column) {
+      return std::all_of(column.second.begin(), column.second.end(), finite);
+    });
+  return true;
+}
+
 }  // namespace
 
 PathLedger::PathLedger(const std::vector<PathMeta>& announced)
@@ -31,8 +44,7 @@ PathLedger::Put PathLedger::put(const PathValue& value)
   Slot& slot = found->second;
   const bool replaced = slot.to_send;
   slot.newest = value;
-  // JSON has neither: they would go out as null and come back as something else.
-  if (const auto* number = std::get_if<double>(&value.value); number != nullptr && !std::isfinite(*number))
+  if (!all_finite(value.value))
     slot.newest->value = {};
   slot.to_send = true;
   return replaced ? Put::replaced : Put::queued;

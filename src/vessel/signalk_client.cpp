@@ -290,7 +290,7 @@ private:
 };
 
 SignalKClient::SignalKClient(const SignalKParameters& parameters, std::vector<PathMeta> announced,
-                             std::vector<std::string> inputs, std::function<void(const IncomingValue&)> on_input)
+                             const std::vector<std::string>& inputs, std::function<void(const IncomingValue&)> on_input)
 {
   parameters.validate("signalk");
   impl_ = std::make_unique<Impl>(parameters, std::move(announced), inputs, std::move(on_input));

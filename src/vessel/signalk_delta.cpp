@@ -20,8 +20,14 @@ Json to_json(const Value& value)
     Json method = Json::array({ "visual" });
     if (notice->sound)
       method.push_back("sound");
-    return { { "state", notice->state }, { "method", std::move(method) }, { "message", notice->message } };
+    Json json = { { "state", notice->state }, { "method", std::move(method) }, { "message", notice->message } };
+    // Not `acknowledgeStatus`: server 2.23 takes that for good, and keeps silent about the next alarm of the path.
+    if (notice->acknowledged)
+      json["acknowledged"] = true;
+    return json;
   }
+  if (const auto* columns = std::get_if<Columns>(&value))
+    return *columns;
   return nullptr;
 }
 
@@ -71,6 +77,18 @@ std::string text_of(const Json& object, const char* key)
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+/// Lists of numbers by name; nothing for any other object.
+Value to_columns(const Json& object)
+{
+  Columns columns;
+  for (const auto& [name, list] : object.items()) {
+    if (!list.is_array() || !std::all_of(list.begin(), list.end(), [](const Json& entry) { return entry.is_number(); }))
+      return {};
+    columns[name] = list.get<std::vector<double>>();
+  }
+  return columns;
+}
+
 Value to_value(const Json& json)
 {
   if (json.is_number())
@@ -78,7 +96,9 @@ Value to_value(const Json& json)
   if (json.is_string())
     return json.get<std::string>();
   if (json.is_object() && json.contains("state"))
-    return Notice{ text_of(json, "state"), text_of(json, "message"), false };
+    return Notice{ text_of(json, "state"), text_of(json, "message"), false, false };
+  if (json.is_object() && !json.empty())
+    return to_columns(json);
   return {};
 }
 
@@ -97,6 +117,20 @@ void read_update(const Json& update, std::size_t most_values, std::vector<Incomi
     std::string path = text_of(entry, "path");
     if (!path.empty())
       values.push_back({ std::move(path), source, stamp, to_value(entry["value"]) });
+  }
+}
+
+template <typename Source>
+void describe(const std::vector<Figure<Source>>& table, const std::string& prefix, double warn, double alarm,
+              std::vector<PathMeta>& paths)
+{
+  for (const Figure<Source>& figure : table) {
+    PathMeta meta{ prefix + "." + figure.path, figure.units, figure.description, {} };
+    if (figure.limited && warn > 0.0 && alarm > warn)
+      meta.zones = { { std::nullopt, warn, "normal", "The geotextile is within its limits" },
+                     { warn, alarm, "warn", "The geotextile's tension nears the strength of its seam" },
+                     { alarm, std::nullopt, "alarm", "The geotextile's tension is beyond the limit" } };
+    paths.push_back(std::move(meta));
   }
 }
 
@@ -152,23 +186,11 @@ std::string write_subscription(const std::vector<std::string>& paths)
 std::vector<PathMeta> describe_figures(const std::string& prefix, double warn, double alarm)
 {
   std::vector<PathMeta> paths;
-  for (const Figure& figure : figures()) {
-    PathMeta meta{ prefix + "." + figure.path, figure.units, figure.description, {} };
-    if (figure.limited && warn > 0.0 && alarm > warn)
-      meta.zones = { { std::nullopt, warn, "normal", "The geotextile is within its limits" },
-                     { warn, alarm, "warn", "The geotextile's tension nears the strength of its seam" },
-                     { alarm, std::nullopt, "alarm", "The geotextile's tension is beyond the limit" } };
-    paths.push_back(std::move(meta));
-  }
+  describe(release_figures(), prefix, warn, alarm, paths);
+  describe(forecast_figures(), prefix, warn, alarm, paths);
+  describe(ensemble_figures(), prefix, warn, alarm, paths);
+  describe(section_figures(), prefix, warn, alarm, paths);
   return paths;
-}
-
-std::vector<PathValue> to_values(const ReleaseFigures& release, const std::string& prefix)
-{
-  std::vector<PathValue> values;
-  for (const Figure& figure : figures())
-    values.push_back({ prefix + "." + figure.path, figure.value(release), release.stamp });
-  return values;
 }
 
 Incoming read_message(std::string_view text, const IncomingLimits& limits)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Angles that come in as sentences are published as they were measured; the release goes out as a sentence; what is wrong is
-counted, or refused at the start."""
+"""Angles that come in as sentences are published as they were measured; release, forecast, ensemble and alarms go out as they
+were published, a replay only as one; what is wrong is counted, or refused at the start."""
+import json
 import math
 import os
 import socket
@@ -11,9 +12,13 @@ import unittest
 
 import rospy
 import rostest
-from geocontainer_mpm.msg import HullOpening, ReleaseStatus
+from geocontainer_mpm.msg import (GeotextileForces, HullOpening, Quantiles, ReleaseAlarm, ReleaseEnsemble, ReleaseForecast,
+                                  ReleaseStatus)
+from geometry_msgs.msg import Point
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "vessel")]
+from signalk_peer import HELLO, Peer, frame, frames_of, upgrade  # noqa: E402
 from node_test import TERMINATE, NodeDiagnostics, start_node  # noqa: E402
 
 
@@ -42,6 +47,74 @@ def connected(port):
         except OSError:
             time.sleep(0.1)
     raise AssertionError("the node does not listen")
+
+
+class Recorder:
+    """A Signal K server in small: keeps the newest value of each path, and sends back what it is told."""
+
+    def __init__(self):
+        self.changed = threading.Condition()
+        self.values, self.stamps, self.sources = {}, {}, set()
+
+    def __call__(self, connection):
+        upgrade(connection)
+        connection.sendall(frame(HELLO))
+        for text in frames_of(connection):
+            delta = json.loads(text)
+            with self.changed:
+                for update in delta.get("updates", []):
+                    for entry in update.get("values", []):
+                        self.values[entry["path"]] = entry["value"]
+                        self.stamps[entry["path"]] = update["timestamp"]
+                        self.sources.add(update["$source"])
+                self.changed.notify_all()
+            if "values" in text:
+                connection.sendall(frame(text))
+
+    def wait(self, test, path, value, limit_s=30.0):
+        with self.changed:
+            test.assertTrue(self.changed.wait_for(lambda: self.values.get(path) == value, limit_s),
+                            f"{path}: {self.values.get(path)}, not {value}")
+
+
+PREFIX = "cargo.geocontainer."
+NOW = rospy.Time(1_795_694_400, 250_000_000)  # 2026-11-26T12:00:00.250Z
+
+
+def status_with(*alarms, **fields):
+    status = ReleaseStatus(outcome=ReleaseStatus.RELEASING, peak_tension=1000.0, **fields)
+    status.header.stamp = NOW
+    status.alarms = list(alarms)
+    return status
+
+
+def hung_up(level, acknowledged=False):
+    return ReleaseAlarm(name="hung_up", level=level, latched=ReleaseAlarm.ALARM, acknowledged=acknowledged, since=NOW,
+                        message="The container stands still")
+
+
+def forecast():
+    message = ReleaseForecast(outcome=ReleaseStatus.RELEASED, message="Out in 42 s", age=0.5,
+                              release_time=NOW + rospy.Duration(42.5))
+    message.header.stamp = NOW
+    message.stamps = [NOW + rospy.Duration(i) for i in range(3)]
+    message.tension, message.peak_tension, message.utilisation = [1e3, 5e4, 2e4], [3e3, 5e4, 5e4], [0.02, 0.25, 0.25]
+    return message
+
+
+def ensemble():
+    message = ReleaseEnsemble(members=16, completed=15, hung_up=0.125, ruptured=0.0, advice=ReleaseEnsemble.RATE,
+                              advised_rate=0.0125, advised_utilisation=0.75, message="Slow down")
+    message.header.stamp = NOW
+    message.peak_tension, message.release_delay = Quantiles(4e4, 5e4, 7e4), Quantiles(38.0, 42.0, math.inf)
+    return message
+
+
+def forces():
+    message = GeotextileForces(name="container", nodes=[Point(0, y, z) for y, z in ((-1, -1), (1, -1), (0, -3))],
+                               tension=[1e4, 2e4, 3e4], utilisation=[0.05, 0.1, 0.15])
+    message.header.stamp, message.header.frame_id = NOW, "base_link"
+    return message
 
 
 class VesselLinkTest(unittest.TestCase):
@@ -126,6 +199,92 @@ class VesselLinkTest(unittest.TestCase):
                 text += display.recv(4096)
         self.assertEqual(text.decode(), sentence("IIXDR,A,10.0000,D,HULL_PORT,A,-0.5000,D,HULL_STBD") +
                          sentence("PGCM,1,R,45.7,45670,1200,-2.50,4.50,,0.25"))
+
+    def publisher(self, topic, kind):
+        """Connected to the node under test."""
+        publisher = rospy.Publisher(topic, kind, queue_size=10)
+        self.addCleanup(publisher.unregister)
+        end = time.monotonic() + 30.0
+        while publisher.get_num_connections() == 0:
+            self.assertLess(time.monotonic(), end, f"nobody listens to {topic}")
+            time.sleep(0.05)
+        return publisher
+
+    def server(self):
+        recorder = Recorder()
+        peer = Peer(recorder)
+        self.addCleanup(peer.close)
+        return recorder, {"signalk": {"enabled": True, "port": peer.port}}
+
+    def test_forecast_ensemble_and_section_arrive_as_they_were_published(self):
+        diagnostics = NodeDiagnostics()
+        recorder, parameters = self.server()
+        self.start("forecast_link", parameters)
+        self.publisher("/release_forecast", ReleaseForecast).publish(forecast())
+        self.publisher("/release_ensemble", ReleaseEnsemble).publish(ensemble())
+        self.publisher("/geotextile_forces", GeotextileForces).publish(forces())
+        begin = NOW.to_sec()
+        for path, value in {
+                "forecast.state": "fresh", "forecast.outcome": "released", "forecast.message": "Out in 42 s",
+                "forecast.release.instant": "2026-11-26T12:00:42.750Z", "forecast.release.delay": 42.0,
+                "forecast.tension.peak": 5e4, "forecast.utilisation.peak": 0.25,
+                "forecast.curve": {"time": [begin, begin + 1, begin + 2], "tension": [1e3, 5e4, 2e4]},
+                "ensemble.members": 15, "ensemble.tension.p10": 4e4, "ensemble.tension.p50": 5e4, "ensemble.tension.p90": 7e4,
+                "ensemble.release.p10": 38.0, "ensemble.release.p50": 42.0, "ensemble.release.p90": None,
+                "ensemble.probability.hung_up": 0.125, "ensemble.probability.ruptured": 0.0, "advice.state": "rate",
+                "advice.rate": 0.0125, "advice.utilisation": 0.75, "advice.message": "Slow down",
+                "shape": {"y": [-1, 1, 0], "z": [-1, -1, -3], "utilisation": [0.05, 0.1, 0.15]},
+                "hull.section": {"hinge": [0, 0], "y": [1.5, 0, 0, 2.5, 2.5], "z": [-4.3, -4.3, -3.9, -1.3, 0]}}.items():
+            recorder.wait(self, PREFIX + path, value)
+        self.assertEqual(recorder.stamps[PREFIX + "ensemble.members"], "2026-11-26T12:00:00.250Z")
+        diagnostics.wait(lambda d: d.value("signal k", "confirmation") == "confirmed", 30.0, "all of it read back")
+
+    def test_alarms_go_out_and_stay_until_they_are_acknowledged(self):
+        recorder, parameters = self.server()
+        port = free_port(socket.SOCK_STREAM)
+        self.start("alarm_link", dict(parameters, nmea={"ports": [{"transport": "tcp_server", "port": port, "send": True}]}))
+        publisher = self.publisher("/release_status", ReleaseStatus)
+        path = "notifications." + PREFIX + "hung_up"
+        shown = {"state": "alarm", "method": ["visual", "sound"], "message": "The container stands still"}
+        with connected(port) as display:
+            publisher.publish(status_with(hung_up(ReleaseAlarm.ALARM)))
+            recorder.wait(self, path, shown)
+            publisher.publish(status_with(hung_up(ReleaseAlarm.NORMAL)))  # has gone, and nobody has seen it
+            recorder.wait(self, path, shown)
+            publisher.publish(status_with(hung_up(ReleaseAlarm.ALARM, True)))
+            recorder.wait(self, path, dict(shown, method=["visual"], acknowledged=True))
+            publisher.publish(status_with(hung_up(ReleaseAlarm.NORMAL, True)))
+            recorder.wait(self, path, dict(shown, state="normal", method=["visual"], acknowledged=True))
+            expected = sentence("IIALR,120000.25,004,V,A,The container stands still")
+            text = ""
+            while expected not in text:
+                text += display.recv(4096).decode()
+        self.assertIn(sentence("IIALR,120000.25,004,A,V,The container stands still"), text)
+        self.assertNotIn("notifications." + PREFIX + "release", recorder.values)
+
+    def test_a_replay_is_marked_and_raises_nothing(self):
+        diagnostics = NodeDiagnostics()
+        recorder, parameters = self.server()
+        live = self.start("live_link", parameters)
+        publisher = self.publisher("/release_status", ReleaseStatus)
+        publisher.publish(status_with(hung_up(ReleaseAlarm.ALARM), replay=True, current_tension=1.0))
+        diagnostics.wait(lambda d: d.value("vessel link", "statuses of a replay, not sent") == "1", 30.0, "withheld")
+        publisher.publish(status_with(current_tension=2.0))
+        recorder.wait(self, PREFIX + "tension.current", 2.0)  # the replay's was before it
+        self.assertNotIn("notifications." + PREFIX + "hung_up", recorder.values)
+        live.signal(TERMINATE)
+        self.assertEqual(live.end()[0], 0)
+        publisher.unregister()
+
+        recorder, parameters = self.server()
+        rospy.set_param("/use_sim_time", True)
+        self.addCleanup(rospy.delete_param, "/use_sim_time")
+        self.start("replay_link", dict(parameters, send_replays=True))
+        publisher = self.publisher("/release_status", ReleaseStatus)
+        publisher.publish(status_with(hung_up(ReleaseAlarm.ALARM), replay=True, current_tension=3.0))
+        recorder.wait(self, PREFIX + "tension.current", 3.0)
+        self.assertEqual(recorder.sources, {"geocontainer_mpm.replay"})
+        self.assertEqual([path for path in recorder.values if path.startswith("notifications.")], [])
 
     def refused(self, parameters, *parts):
         with start_node("bad_link", parameters, "vessel_link_node") as node:

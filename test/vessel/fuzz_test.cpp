@@ -60,8 +60,10 @@ TEST(Fuzz, MutilatedSentences)
 
 TEST(Fuzz, MutilatedDeltas)
 {
-  const std::string delta =
-      "1" + write_delta({ { "a.b", 0.5, Stamp{} }, { "n", Notice{ "alarm", "x", true }, {} } }, "me");
+  const std::string delta = "1" + write_delta({ { "a.b", 0.5, Stamp{} },
+                                                { "n", Notice{ "alarm", "x", true, true }, {} },
+                                                { "c", Columns{ { "y", { 0.5, -1.0 } }, { "z", {} } }, {} } },
+                                              "me");
   const std::string hello = R"(1{"name":"x","version":"2.23.0","self":"vessels.urn:x","roles":["main"]})";
   std::minstd_rand chance(20161);
   for (int i = 0; i < 10'000; ++i) {

@@ -25,7 +25,7 @@ const boost::asio::ip::address loopback = boost::asio::ip::address_v4::loopback(
 
 bool eventually(const std::function<bool()>& condition)
 {
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     if (condition())
       return true;
     std::this_thread::sleep_for(10ms);

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "geocontainer_mpm/vessel/path_ledger.h"
@@ -38,12 +41,12 @@ RC_GTEST_PROP(Utc, RoundTripToTheMillisecond, ())
 TEST(Delta, IsAsTheSpecificationSays)
 {
   const Stamp stamp{ milliseconds(1'500) };
-  const Json delta =
-      Json::parse(write_delta({ { "a.b", 0.5, stamp },
-                                { "a.c", std::string("text"), stamp },
-                                { "a.d", Value(), stamp },
-                                { "notifications.a", Notice{ "alarm", "look", true }, stamp + milliseconds(1) } },
-                              "me"));
+  const Json delta = Json::parse(
+      write_delta({ { "a.b", 0.5, stamp },
+                    { "a.c", std::string("text"), stamp },
+                    { "a.d", Value(), stamp },
+                    { "notifications.a", Notice{ "alarm", "look", true, false }, stamp + milliseconds(1) } },
+                  "me"));
   EXPECT_EQ(delta, Json::parse(R"({"context": "vessels.self", "updates": [
       {"$source": "me", "timestamp": "1970-01-01T00:00:01.500Z", "values": [
           {"path": "a.b", "value": 0.5}, {"path": "a.c", "value": "text"}, {"path": "a.d", "value": null}]},
@@ -55,7 +58,8 @@ TEST(Delta, MetaHasUnitsDescriptionsAndZones)
 {
   const auto paths = describe_figures("cargo", 0.8, 1.0);
   const Json meta = Json::parse(write_meta(paths, "me", Stamp{}));
-  ASSERT_EQ(meta["updates"][0]["meta"].size(), figures().size());
+  ASSERT_EQ(meta["updates"][0]["meta"].size(), release_figures().size() + forecast_figures().size() +
+                                                   ensemble_figures().size() + section_figures().size());
   std::size_t with_zones = 0;
   for (const Json& entry : meta["updates"][0]["meta"]) {
     EXPECT_FALSE(entry["value"]["description"].get<std::string>().empty());
@@ -86,6 +90,77 @@ RC_GTEST_PROP(Delta, NumbersAndTextsSurviveToTheLastBit, ())
   RC_ASSERT(read.values[0].stamp == stamp);
   RC_ASSERT(read.values[0].source == "me");
   RC_ASSERT(std::get<std::string>(read.values[1].value).size() >= text.size());  // what is no UTF-8 is replaced
+}
+
+RC_GTEST_PROP(Delta, ColumnsSurviveAndOtherObjectsAreNothing, ())
+{
+  const auto number = rc::gen::map(rc::gen::inRange(-1'000'000, 1'000'000), [](int n) { return 1e-3 * n; });
+  const Value columns = Columns{ { "y", *rc::gen::container<std::vector<double>>(number) }, { "z", { 0.1 } } };
+  const Incoming read = read_message(write_delta({ { "a", columns, {} } }, "me"));
+  RC_ASSERT(read.values.at(0).value == columns);
+  for (const char* other : { "{}", R"({"y":1})", R"({"y":[1,"2"]})", R"({"y":[1],"z":null})" }) {
+    const Incoming nothing =
+        read_message(std::string(R"({"updates":[{"values":[{"path":"a","value":)") + other + "}]}]}");
+    RC_ASSERT(nothing.values.at(0).value == Value());
+  }
+}
+
+TEST(Figures, WhatIsNotKnownIsNull)
+{
+  for (const PathValue& value : to_values(ensemble_figures(), EnsembleFigures{}, "c"))
+    if (value.path != "c.advice.state" && value.path != "c.advice.message") {
+      EXPECT_EQ(value.value, Value()) << value.path;
+    }
+  ForecastFigures forecast;
+  forecast.until_release_s = 5.0;  // of no release
+  for (const PathValue& value : to_values(forecast_figures(), forecast, "c"))
+    if (value.path.find("forecast.release.") != std::string::npos) {
+      EXPECT_EQ(value.value, Value()) << value.path;
+    }
+  EnsembleFigures ensemble;
+  ensemble.release_delay_s.p90 = std::numeric_limits<double>::infinity();
+  ensemble.advised_rate_rad_per_s = 0.01;
+  ensemble.advice = AdviceState::no_rate;
+  for (const PathValue& value : to_values(ensemble_figures(), ensemble, "c"))
+    if (value.path == "c.ensemble.release.p90" || value.path == "c.advice.rate") {
+      EXPECT_EQ(value.value, Value()) << value.path;
+    }
+}
+
+RC_GTEST_PROP(Figures, AThinCurveKeepsEndsAndPeak, ())
+{
+  const auto count = *rc::gen::inRange<std::size_t>(1, 400);
+  const auto tension = *rc::gen::container<std::vector<double>>(
+      count, rc::gen::map(rc::gen::inRange(0, 200'000), [](int n) { return double(n); }));
+  std::vector<double> time;
+  for (std::size_t i = 0; i < count; ++i)
+    time.push_back(0.5 * static_cast<double>(i));
+  Columns curve = thin_curve(time, tension);
+  RC_ASSERT(curve["time"].size() == std::min(count, most_points));
+  RC_ASSERT(curve["time"].size() == curve["tension"].size());
+  RC_ASSERT(std::is_sorted(curve["time"].begin(), curve["time"].end()));
+  RC_ASSERT(curve["time"].front() == time.front() && curve["time"].back() == time.back());
+  RC_ASSERT(*std::max_element(curve["tension"].begin(), curve["tension"].end()) ==
+            *std::max_element(tension.begin(), tension.end()));
+}
+
+RC_GTEST_PROP(Figures, AThinOutlineKeepsTheLargestUtilisation, ())
+{
+  const auto points = *rc::gen::inRange<std::size_t>(2, 400);
+  const bool closed = *rc::gen::arbitrary<bool>();
+  const auto place = rc::gen::map(rc::gen::inRange(-9'000, 9'000), [](int n) { return 1e-3 * n; });
+  const auto y = *rc::gen::container<std::vector<double>>(points, place);
+  const auto utilisation = *rc::gen::container<std::vector<double>>(
+      closed ? points : points - 1, rc::gen::map(rc::gen::inRange(0, 1'500), [](int n) { return 1e-3 * n; }));
+  Columns outline = thin_outline(y, y, utilisation);
+  const std::size_t pieces = outline["utilisation"].size();
+  RC_ASSERT(outline["y"].size() == outline["z"].size());
+  RC_ASSERT(outline["y"].size() == (closed ? pieces : pieces + 1));
+  RC_ASSERT(outline["y"].size() <= most_points + 1);
+  RC_ASSERT(std::abs(*std::max_element(outline["utilisation"].begin(), outline["utilisation"].end()) -
+                     *std::max_element(utilisation.begin(), utilisation.end())) < 1e-9);
+  RC_ASSERT(std::abs(outline["y"].front() - y.front()) < 1e-9);
+  RC_ASSERT(closed || std::abs(outline["y"].back() - y.back()) < 1e-9);
 }
 
 TEST(Incoming, KindsAreToldApart)

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/vessel/alarms.h"
 #include "geocontainer_mpm/vessel/nmea_angles.h"
 #include "geocontainer_mpm/vessel/signalk_client.h"
 
@@ -92,8 +93,10 @@ Value to_value(const Json& json)
 {
   if (json.is_number())
     return json.get<double>();
+  if (json.is_object() && json.contains("state"))
+    return Notice{ json["state"], json["message"], true, json.value("acknowledged", false) };
   if (json.is_object())
-    return Notice{ json["state"], json["message"], true };
+    return json.get<Columns>();
   return json.is_string() ? Value(json.get<std::string>()) : Value();
 }
 
@@ -101,6 +104,9 @@ int signalk(const Json& options)
 {
   auto announced = describe_figures(prefix, 0.8, 1.0);
   announced.push_back({ std::string("notifications.") + prefix + ".release", "", "", {} });
+  announced.push_back({ std::string(prefix) + ".hull.section", "", "Port half of the hull", {} });
+  for (const AlarmKind& kind : alarm_kinds())
+    announced.push_back({ std::string("notifications.") + prefix + "." + kind.name, "", "", {} });
   SignalKClient client(
       parameters_of(options), announced, options.value("inputs", std::vector<std::string>{}),
       [](const IncomingValue& value) {

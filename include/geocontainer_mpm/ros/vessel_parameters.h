@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,18 @@ namespace geocontainer_mpm::ros_bridge {
 
 enum class AngleSource { none, nmea, signalk };
 
+/// What pictures of the section show beside the geotextile, with the scene's names; nothing is computed from it.
+struct VesselSection {
+  std::string geotextile;                    ///< whose outline is sent; empty: every one that is heard
+  std::array<double, 2> hinge_m = { 0, 0 };  ///< y, z in the barge's frame
+  std::vector<std::array<double, 2>> port_section_m = {
+    { 1.5, -4.3 }, { 0, -4.3 }, { 0, -3.9 }, { 2.5, -1.3 }, { 2.5, 0 }
+  };                                 ///< y, z of the port half, closed; at least two points
+  double bed_z_m = vessel::unknown;  ///< of the bed; not given: none is drawn
+
+  vessel::Columns columns() const;
+};
+
 struct VesselSignalK {
   bool enabled = false;
   vessel::SignalKParameters server;
@@ -24,6 +37,7 @@ struct VesselSignalK {
   double utilisation_alarm = 1.0;                  ///< > utilisation_warn
   std::string port_path;                           ///< hull angles in, rad; not below path_prefix
   std::string starboard_path;
+  VesselSection section;
   double max_age_s = 2.0;  ///< an angle whose stamp is further from this machine's clock is not believed, s, > 0
 };
 

@@ -1,8 +1,10 @@
 #pragma once
-/// What the vessel's monitoring system is told: one table, one line a figure.
+/// What the vessel's monitoring system is told: tables of one line a figure, for each message they come from.
 
 #include <array>
 #include <limits>
+#include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -35,28 +37,85 @@ struct ReleaseFigures {
   double lag_s = unknown;
 };
 
+/// Lists of numbers by name, one beside the other: a curve, an outline. An object of lists on the wire.
+using Columns = std::map<std::string, std::vector<double>>;
+
+/// The newest forecast.
+struct ForecastFigures {
+  Stamp stamp;         ///< the simulated instant it started from
+  bool stale = false;  ///< the hull has departed from the opening that was assumed
+  ReleaseState outcome = ReleaseState::none;
+  bool ruptured = false;
+  std::string message;
+  std::optional<Stamp> release;           ///< nothing: not within the horizon
+  double until_release_s = unknown;       ///< from the newest measurement that the forecast knew of
+  double peak_tension_n_per_m = unknown;  ///< up to the horizon's end, what has been included
+  double peak_utilisation = unknown;      ///< of sheet or seam, whichever is more
+  Columns curve;                          ///< `time` (s since 1970, UTC) and `tension` (N/m)
+};
+
+/// Below which a tenth, half and nine tenths of the members lie; infinite: not within their run.
+struct Band {
+  double p10 = unknown, p50 = unknown, p90 = unknown;
+};
+
+enum class AdviceState { none, any_rate, rate, no_rate };
+const char* to_string(AdviceState advice);
+
+/// The newest ensemble, and the advice drawn from it.
+struct EnsembleFigures {
+  Stamp stamp;
+  double members = unknown;  ///< that have come to their end
+  Band peak_tension_n_per_m, peak_utilisation, release_delay_s, final_width_m;
+  double hung_up = unknown, ruptured = unknown;  ///< probabilities
+  AdviceState advice = AdviceState::none;
+  double advised_rate_rad_per_s = unknown;
+  double advised_utilisation = unknown;  ///< p90 at that rate
+  std::string advice_message;
+};
+
+/// The section as it is drawn: the geotextile's outline in the barge's frame.
+struct SectionFigures {
+  Stamp stamp;
+  Columns outline;  ///< `y`, `z` (m) of points, `utilisation` of the piece from each to the next; as many when closed
+};
+
+/// Curves and outlines have no more points than this: they are drawn on a screen, some hundred pixels wide.
+constexpr std::size_t most_points = 64;
+
+/// Every so manyth point of an outline; a piece that stands for several has the largest utilisation of theirs.
+Columns thin_outline(const std::vector<double>& y, const std::vector<double>& z,
+                     const std::vector<double>& utilisation);
+/// As many stretches of a curve as may be, of each the point of largest tension: a peak stays. First and last are kept.
+Columns thin_curve(const std::vector<double>& time, const std::vector<double>& tension);
+
 /// A Signal K notification.
 struct Notice {
   std::string state;  ///< normal, alert, warn, alarm or emergency
   std::string message;
   bool sound = false;  ///< beside being shown
+  bool acknowledged = false;
 
   bool operator==(const Notice& other) const { return state == other.state && message == other.message; }
 };
 
-/// A value on a path: nothing (sent as null), a number in SI units, text, or a notification.
-using Value = std::variant<std::monostate, double, std::string, Notice>;
+/// A value on a path: nothing (sent as null), a number in SI units, text, a notification, or lists of numbers.
+using Value = std::variant<std::monostate, double, std::string, Notice, Columns>;
 
+template <typename Source>
 struct Figure {
   const char* path;   ///< below the prefix
   const char* units;  ///< SI; empty for text
   const char* description;
   bool limited;  ///< the limits of utilisation apply: the server raises its alarm from them
-  Value (*value)(const ReleaseFigures& release);
+  Value (*value)(const Source& source);
 };
 
-/// The table. A figure more is a line more in src/vessel/figures.cpp.
-const std::vector<Figure>& figures();
+/// The tables. A figure more is a line more in src/vessel/figures.cpp.
+const std::vector<Figure<ReleaseFigures>>& release_figures();
+const std::vector<Figure<ForecastFigures>>& forecast_figures();
+const std::vector<Figure<EnsembleFigures>>& ensemble_figures();
+const std::vector<Figure<SectionFigures>>& section_figures();
 
 /// What the release itself is an alarm for: standing still in the slot, or a prediction that has stopped.
 Notice release_notice(const ReleaseFigures& release);

@@ -66,8 +66,8 @@ class SignalKClient {
 public:
   /// `announced`: all paths that will be sent. `inputs`: paths of this vessel that `on_input` is called for, on the
   /// client's own thread; it must not throw, nor wait. Own values that come back are not inputs. Throws InputError.
-  SignalKClient(const SignalKParameters& parameters, std::vector<PathMeta> announced, std::vector<std::string> inputs,
-                std::function<void(const IncomingValue&)> on_input);
+  SignalKClient(const SignalKParameters& parameters, std::vector<PathMeta> announced,
+                const std::vector<std::string>& inputs, std::function<void(const IncomingValue&)> on_input);
   ~SignalKClient();  ///< within a fraction of a second, whatever the peer does
   SignalKClient(const SignalKClient&) = delete;
   SignalKClient& operator=(const SignalKClient&) = delete;

@@ -38,17 +38,25 @@ std::string write_meta(const std::vector<PathMeta>& paths, const std::string& so
 /// Every change of these paths of this vessel.
 std::string write_subscription(const std::vector<std::string>& paths);
 
-/// Prefix and table make paths; `warn` and `alarm` are zones of those that are limited, without them where not
+/// Prefix and the tables make paths; `warn` and `alarm` are zones of those that are limited, without them where not
 /// positive.
 std::vector<PathMeta> describe_figures(const std::string& prefix, double warn, double alarm);
-/// Every figure of the table.
-std::vector<PathValue> to_values(const ReleaseFigures& release, const std::string& prefix);
+/// Every figure of a table, at its source's stamp.
+template <typename Source>
+std::vector<PathValue> to_values(const std::vector<Figure<Source>>& table, const Source& source,
+                                 const std::string& prefix)
+{
+  std::vector<PathValue> values;
+  for (const Figure<Source>& figure : table)
+    values.push_back({ prefix + "." + figure.path, figure.value(source), source.stamp });
+  return values;
+}
 
 struct IncomingValue {
   std::string path;
   std::string source;          ///< `$source`; empty when there is none
   std::optional<Stamp> stamp;  ///< nothing when there is none or it cannot be read
-  Value value;                 ///< nothing also for an object that is no notification, a list or a truth value
+  Value value;                 ///< nothing also for any other object, a list or a truth value
 };
 
 enum class IncomingKind { hello, delta, other, faulty };
