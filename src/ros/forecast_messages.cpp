@@ -155,7 +155,7 @@ std::string first_non_finite(const Forecast& forecast)
   return "";
 }
 
-ReleaseForecast to_release_forecast(const Forecast& forecast, bool stale, const UtilisationLimits& limits,
+ReleaseForecast to_release_forecast(const Forecast& forecast, bool stale, const alarm::Limits& limits,
                                     const std::string& barge_frame)
 {
   const scene::StatusFrame& status = forecast.status;

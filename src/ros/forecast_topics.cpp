@@ -67,11 +67,13 @@ std::vector<barge::OpeningSample> to_plan(const trajectory_msgs::JointTrajectory
 }
 
 ForecastTopics::ForecastTopics(ros::NodeHandle& node, const NodeParameters& parameters,
-                               const scene::SceneDescription& scene)
+                               const scene::SceneDescription& scene, Expect expect)
     : joints_(parameters.joints)
     , barge_frame_(parameters.barge_frame)
+    , limits_(parameters.alarms.utilisation)
     , forecasts_(node.advertise<ReleaseForecast>("release_forecast", queue_size, true))
     , ensembles_(node.advertise<ReleaseEnsemble>("release_ensemble", queue_size, true))
+    , expect_(std::move(expect))
 {
   forecast::ForecasterHooks hooks;
   hooks.forecast = [this](const forecast::Forecast& forecast, bool stale) { publish(forecast, stale); };
@@ -83,17 +85,10 @@ ForecastTopics::ForecastTopics(ros::NodeHandle& node, const NodeParameters& para
   plans_ = node.subscribe("opening_plan", queue_size, &ForecastTopics::take_plan, this);
 }
 
-std::optional<forecast::Forecast> ForecastTopics::latest() const
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return latest_;
-}
-
 void ForecastTopics::restart(std::uint64_t run)
 {
   forecaster_->restart(run);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  latest_.reset();
+  expect_(nullptr);
 }
 
 void ForecastTopics::take_plan(const trajectory_msgs::JointTrajectory& trajectory)
@@ -113,11 +108,7 @@ void ForecastTopics::publish(const forecast::Forecast& forecast, bool stale)
     return;
   }
   forecasts_.publish(to_release_forecast(forecast, stale, limits_, barge_frame_));
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (stale)
-    latest_.reset();
-  else
-    latest_ = forecast;
+  expect_(stale ? nullptr : std::make_shared<const forecast::Forecast>(forecast));
 }
 
 }  // namespace geocontainer_mpm::ros_bridge

@@ -61,7 +61,11 @@ ReleaseNode::ReleaseNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
   input_ = std::make_unique<OpeningInput>(node, parameters_.joints, queue_);
   if (parameters_.forecast.enabled)
-    forecasts_ = std::make_unique<ForecastTopics>(node, parameters_, scene_);
+    forecasts_ = std::make_unique<ForecastTopics>(
+        node, parameters_, scene_,
+        [this](std::shared_ptr<const forecast::Forecast> forecast) { alarms_.expect(std::move(forecast)); });
+  if (forecasts_)
+    forecasts_->restart(settings.first_run);
   solver_ = std::make_unique<SolverThread>(std::move(beginning.simulation), queue_, std::move(record),
                                            std::move(settings), hooks());
 
@@ -114,6 +118,10 @@ SolverHooks ReleaseNode::hooks()
     outputs_.publish(frame, progress, look(progress));
   };
   hooks.progress = [this](const Progress& progress) { outputs_.publish(progress, look(progress)); };
+  if (forecasts_) {
+    hooks.forecaster = &forecasts_->forecaster();
+    hooks.restarted = [this](std::uint64_t run) { forecasts_->restart(run); };
+  }
   hooks.notice = [](const std::string& sentence) { ROS_WARN("%s", sentence.c_str()); };
   return hooks;
 }

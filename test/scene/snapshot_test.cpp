@@ -73,8 +73,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "hull.opening_table=[[0, 0, 0], [0.2, 0, 0], [1.2, 0.365, 0.365]]", "time.end_s=1" } },
         Case{ "space",
               "release_3d",
-              { "grid.cell_size_m=0.5", "grid.upper_m=[7, 1]", "geotextiles.container.segment_length_m=0.5", "space.symmetry=quarter",
-                "hull.opening_table=[[0, 0, 0], [0.2, 0, 0], [1.2, 0.365, 0.365]]", "time.end_s=0.6" } }),
+              { "grid.cell_size_m=0.5", "grid.upper_m=[7, 1]", "geotextiles.container.segment_length_m=0.5",
+                "space.symmetry=quarter", "hull.opening_table=[[0, 0, 0], [0.2, 0, 0], [1.2, 0.365, 0.365]]",
+                "time.end_s=0.6" } }),
     [](const auto& one) { return one.param.name; });
 
 }  // namespace

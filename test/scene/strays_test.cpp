@@ -21,13 +21,13 @@ double lowest(const Simulation& simulation)
 // ended the run at 29.6 s.
 TEST(Strays, RestOnWhatTheirSheetLiesOn)
 {
-  const SceneDescription scene = load_scene(
-      scene_path("release"),
-      { "grid.cell_size_m=0.3", "grid.lower_m=[-6, -10.2]", "geotextiles.container.segment_length_m=0.3",
-        "hull.friction=0.269025522", "materials.sand.friction_angle_deg=35.7030851",
-        "materials.sand.young_modulus_pa=1802059.42", "materials.sand.density_kg_per_m3=2011.52216",
-        "geotextiles.container.circumference_m=18.1937196", "geotextiles.container.stiffness_n_per_m=1358196.72",
-        "time.end_s=34", "time.output_interval_s=1" });
+  const SceneDescription scene =
+      load_scene(scene_path("release"),
+                 { "grid.cell_size_m=0.3", "grid.lower_m=[-6, -10.2]", "geotextiles.container.segment_length_m=0.3",
+                   "hull.friction=0.269025522", "materials.sand.friction_angle_deg=35.7030851",
+                   "materials.sand.young_modulus_pa=1802059.42", "materials.sand.density_kg_per_m3=2011.52216",
+                   "geotextiles.container.circumference_m=18.1937196",
+                   "geotextiles.container.stiffness_n_per_m=1358196.72", "time.end_s=34", "time.output_interval_s=1" });
   Simulation simulation(scene, 1);
   double then = 0.0;
   EXPECT_EQ(run(simulation,

@@ -7,21 +7,17 @@
 
 #include <string>
 
+#include "geocontainer_mpm/alarm/alarm_book.h"
 #include "geocontainer_mpm/forecast/forecast.h"
 #include "geocontainer_mpm/forecast/live_ensemble.h"
 
 namespace geocontainer_mpm::ros_bridge {
 
-/// Utilisation from which a warning and an alarm are due.
-struct UtilisationLimits {
-  double warn = 0.8;
-  double alarm = 1.0;
-};
-
 /// Names the first quantity that is not finite, or nothing: such a forecast reaches no topic.
 std::string first_non_finite(const forecast::Forecast& forecast);
 
-ReleaseForecast to_release_forecast(const forecast::Forecast& forecast, bool stale, const UtilisationLimits& limits,
+/// `limits`: of the utilisation.
+ReleaseForecast to_release_forecast(const forecast::Forecast& forecast, bool stale, const alarm::Limits& limits,
                                     const std::string& barge_frame);
 ReleaseEnsemble to_release_ensemble(const forecast::EnsembleForecast& ensemble);
 

@@ -8,8 +8,6 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 
 #include "geocontainer_mpm/forecast/forecaster.h"
@@ -25,11 +23,14 @@ std::vector<barge::OpeningSample> to_plan(const trajectory_msgs::JointTrajectory
 
 class ForecastTopics {
 public:
-  /// Builds the ensemble's members. Throws InputError for distributions or overrides that do not fit the scene.
-  ForecastTopics(ros::NodeHandle& node, const NodeParameters& parameters, const scene::SceneDescription& scene);
+  /// What is expected now: none while it is not known. Called on any thread.
+  using Expect = std::function<void(std::shared_ptr<const forecast::Forecast>)>;
+
+  /// Draws the ensemble's members. Throws InputError for distributions or overrides that do not fit the scene.
+  ForecastTopics(ros::NodeHandle& node, const NodeParameters& parameters, const scene::SceneDescription& scene,
+                 Expect expect);
 
   forecast::Forecaster& forecaster() { return *forecaster_; }
-  std::optional<forecast::Forecast> latest() const;  ///< none: not yet, stale, or of another run
   void restart(std::uint64_t run);
 
 private:
@@ -38,10 +39,9 @@ private:
 
   OpeningJoints joints_;
   std::string barge_frame_;
-  UtilisationLimits limits_;
+  alarm::Limits limits_;
   ros::Publisher forecasts_, ensembles_;
-  mutable std::mutex mutex_;  ///< guards latest_
-  std::optional<forecast::Forecast> latest_;
+  Expect expect_;
   std::unique_ptr<forecast::Forecaster> forecaster_;
   ros::Subscriber plans_;  // last: comes when everything else stands
 };
