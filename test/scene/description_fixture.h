@@ -218,6 +218,7 @@ hull:
   lip_radius_m: 0.1
   friction: 0.2
   opening_table: [[0, 0, 0], [10, 0.3, 0.25]]
+  full_opening_rad: 0.4
   signal:
     min_angle_rad: -0.01
     max_angle_rad: 0.6
