@@ -50,7 +50,7 @@ std::chrono::steady_clock::duration duration(double seconds)
 Forecaster::Forecaster(scene::SceneDescription scene, ForecasterSettings settings,
                        std::unique_ptr<LiveEnsemble> ensemble, ForecasterHooks hooks)
     : scene_(std::move(scene))
-    , settings_(std::move(settings))
+    , settings_(settings)
     , hooks_(std::move(hooks))
     , ensemble_(std::move(ensemble))
     , recent_(settings_.rate_window_s)
@@ -133,6 +133,7 @@ void Forecaster::plan(const std::vector<barge::OpeningSample>& samples)
 {
   if (!samples.empty()) {  // only to check it: the log's origin may not be known yet
     std::vector<barge::OpeningPoint> points;
+    points.reserve(samples.size());
     for (const barge::OpeningSample& sample : samples)
       points.push_back({ static_cast<double>(sample.stamp_ns - samples.front().stamp_ns) / 1e9, sample.angles });
     AssumedOpening::planned(std::move(points), scene_.hull ? scene_.hull->signal : barge::OpeningSignalParameters{},
@@ -153,6 +154,7 @@ AssumedOpening Forecaster::assume(const scene::Snapshot& state, const RecentSamp
   const double newest_s = recent_.newest().time_s;
   if (!plan_.empty()) {
     std::vector<barge::OpeningPoint> points;
+    points.reserve(plan_.size());
     for (const barge::OpeningSample& sample : plan_)
       points.push_back({ static_cast<double>(sample.stamp_ns - state.opening().origin_ns()) / 1e9, sample.angles });
     AssumedOpening plan = AssumedOpening::planned(

@@ -298,6 +298,8 @@ void SolverThread::advance()
       return;
     case scene::Advance::waiting:
       set_state(RunState::following);
+      if (simulation_.time_s() > checkpoint_.time_s() && checkpoint_.due(steady_now_ns()))
+        checkpoint_.save(simulation_);
       return;
     case scene::Advance::finished:
       set_state(RunState::finished);

@@ -142,28 +142,33 @@ class VesselLinkTest(unittest.TestCase):
         self.addCleanup(node.__exit__)
         return node
 
-    def wait_for_publisher(self):
-        end = time.monotonic() + 30.0
-        while self.subscriber.get_num_connections() == 0:
-            self.assertLess(time.monotonic(), end, "the node does not publish")
-            time.sleep(0.05)
+    def wait_for_angles(self, send):
+        """Until a first pair of angles has come all the way: a connection at this end alone does not mean that it is one at
+        the other. What was sent for it is forgotten."""
+        end = time.monotonic() + 60.0
+        while not self.openings:
+            self.assertLess(time.monotonic(), end, "no angles arrive")
+            send(xdr(0.5, 0.5).encode())
+            time.sleep(0.5)
+        time.sleep(1.0)
+        self.openings.clear()
 
     def test_udp_angles_arrive_exactly(self):
         diagnostics = NodeDiagnostics()
         port = free_port(socket.SOCK_DGRAM)
         node = self.start("udp_link", {"hull_angles": "nmea", "nmea": {"ports": [
             {"transport": "udp", "port": port, "receive": True}]}})
-        self.wait_for_publisher()
-        diagnostics.wait(lambda d: d.level("nmea 1") is not None, 20.0, "the port is open")
+        diagnostics.wait(lambda d: d.level("nmea 1") is not None, 60.0, "the port is open")
         degrees = [(0.0, 0.0), (1.25, -0.5), (12.3456, 12.3457), (0.1, 0.3)]
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sensor:
+            self.wait_for_angles(lambda sentence: sensor.sendto(sentence, ("127.0.0.1", port)))
             for both in degrees:
                 sensor.sendto(xdr(*both).encode(), ("127.0.0.1", port))
             sensor.sendto(xdr(7, 7).replace("7", "9", 1).encode(), ("127.0.0.1", port))
             sensor.sendto(os.urandom(500), ("127.0.0.1", port))
         self.expect_openings(degrees)
         diagnostics.wait(lambda d: d.value("nmea 1", "ignored: bad checksum") == "1", 10.0, "a bad checksum counted")
-        self.assertEqual(diagnostics.value("nmea 1", "hull angles in"), "8")
+        self.assertGreaterEqual(int(diagnostics.value("nmea 1", "hull angles in")), 10)
         self.assertTrue(diagnostics.warned("nmea 1", "bad checksum"), diagnostics.warnings)
         node.signal(TERMINATE)
         self.assertEqual(node.end()[0], 0)
@@ -172,10 +177,10 @@ class VesselLinkTest(unittest.TestCase):
         port = free_port(socket.SOCK_STREAM)
         self.start("tcp_link", {"hull_angles": "nmea", "nmea": {"ports": [
             {"transport": "tcp_server", "port": port, "receive": True}]}})
-        self.wait_for_publisher()
         degrees = [(0.5 * i, 0.25 * i) for i in range(40)]
         stream = ("noise\r\n" + "".join(xdr(*both) for both in degrees)).encode()
         with connected(port) as sensor:
+            self.wait_for_angles(sensor.sendall)
             for i in range(0, len(stream), 7):
                 sensor.sendall(stream[i:i + 7])
             self.expect_openings(degrees)
