@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Replays the default log at the speed of the clock through the node with its forecasts on, and compares what they said with
-what the live run found: docs/forecast.csv, .md and .png. Needs the build with ROS, sourced.
+what the live run found: docs/forecast.csv and .png, and a summary on standard output. Needs the build with ROS, sourced.
 
     forecast.py [--set hull.friction=0.3] [--out docs]
 """
@@ -103,6 +103,33 @@ def stamp_when(status, condition):
     return math.nan
 
 
+def picture(path, rows, ensembles, begun, release_s, peak_kn_per_m):
+    """What was said over the time at which it was said: release time and peak tension, forecast and ensemble."""
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(8, 6), sharex=True, constrained_layout=True)
+    said = [row for row in rows if not row["stale"] and not math.isnan(row["release_s"])]
+    upper.plot([row["arrived_s"] for row in said], [row["release_s"] for row in said], "o", label="forecast")
+    lower.plot([row["arrived_s"] for row in said], [row["peak_kn_per_m"] for row in said], "o", label="forecast")
+    for arrived, message in ensembles:
+        if not math.isfinite(message.release_delay.p90):
+            continue
+        when = message.header.stamp.to_sec() - begun
+        delay, tension = message.release_delay, message.peak_tension
+        upper.plot(2 * [arrived - begun], [when + delay.p10, when + delay.p90], "-", color="tab:orange", linewidth=5, alpha=0.6)
+        lower.plot(2 * [arrived - begun], [tension.p10 / 1e3, tension.p90 / 1e3], "-", color="tab:orange", linewidth=5, alpha=0.6)
+    upper.plot([], [], "-", color="tab:orange", linewidth=5, alpha=0.6, label="ensemble, P10 to P90")
+    upper.axhline(release_s, color="black", linewidth=1, label="live run, in the end")
+    lower.axhline(peak_kn_per_m, color="black", linewidth=1)
+    for axes in (upper, lower):
+        axes.axvline(release_s, color="grey", linestyle=":", linewidth=1)
+        axes.grid(alpha=0.3)
+    upper.set_ylabel("release at (s)")
+    upper.legend()
+    lower.set_ylabel("peak tension (kN/m)")
+    lower.set_ylim(bottom=0)
+    lower.set_xlabel("said at (s of the log); dotted: the release")
+    figure.savefig(path, dpi=110)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override of the scene")
@@ -112,9 +139,7 @@ def main():
     options = parser.parse_args()
     listener, cpu = replay(COARSE.split(",") + options.set, options.rate, options.log_s)
     status, forecasts, ensembles = (listener.of(name) for name in ("status", "forecast", "ensemble"))
-    start = status[0][1].header.stamp.to_sec()
     final = status[-1][1]
-    origin = final.header.stamp.to_sec()
     begun = min(m.header.stamp.to_sec() for _, m in status if m.header.stamp.to_sec() > 1e9)
     release = begun + final.release_time.to_sec()
     moved, half = first_motion(status), stamp_when(status, lambda m: min(m.port, m.starboard) >= 0.5 * 0.365)
@@ -129,6 +154,7 @@ def main():
         writer.writeheader()
         for row in rows:
             writer.writerow({key: f"{value:.6g}" for key, value in row.items()})
+    picture(os.path.join(options.out, "forecast.png"), rows, ensembles, begun, release - begun, final.peak_tension / 1e3)
     fresh = [row for row in rows if not row["stale"]]
     moving = [row for row in fresh if row["from_s"] > moved - begun and not math.isnan(row["release_s"])]
     at_half = [row for row in fresh if row["arrived_s"] <= half - begun]
@@ -146,8 +172,6 @@ def main():
               f"{m.release_delay.p90:.1f} s, peak {m.peak_tension.p10/1e3:.0f} {m.peak_tension.p50/1e3:.0f} "
               f"{m.peak_tension.p90/1e3:.0f} cost {m.cost:.1f} s; {m.message}")
     print(f"node: {cpu[0]:.1f} s user, {cpu[1]:.1f} s system")
-    for row in rows:
-        print({k: round(v, 2) for k, v in row.items()})
 
 
 if __name__ == "__main__":
