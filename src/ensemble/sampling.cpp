@@ -5,6 +5,8 @@
 #include <random>
 #include <utility>
 
+#include "geocontainer_mpm/error.h"
+
 namespace geocontainer_mpm::ensemble {
 namespace {
 
@@ -65,6 +67,25 @@ std::vector<std::vector<std::string>> draw(const std::vector<Input>& inputs, std
       values.back().push_back(fmt::format("{:.9g}", inputs[i].distribution.quantile(row[i])));
   }
   return values;
+}
+
+std::vector<std::vector<std::string>> assignments(const std::vector<Input>& inputs,
+                                                  const std::vector<std::vector<std::string>>& values,
+                                                  const std::vector<std::string>& overrides, const std::string& source,
+                                                  const std::string& key, const std::string& distributions)
+{
+  for (const std::string& assignment : overrides)
+    for (const Input& input : inputs)
+      if (assignment.compare(0, input.key.size() + 1, input.key + "=") == 0)
+        throw InputError(source, key, assignment, "is drawn by " + distributions);
+  std::vector<std::vector<std::string>> members;
+  members.reserve(values.size());
+  for (const std::vector<std::string>& row : values) {
+    members.push_back(overrides);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      members.back().push_back(inputs[i].key + "=" + row[i]);
+  }
+  return members;
 }
 
 }  // namespace geocontainer_mpm::ensemble

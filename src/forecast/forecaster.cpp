@@ -321,14 +321,17 @@ std::vector<ensemble::Member> Forecaster::members_ahead(const scene::Snapshot& s
 void Forecaster::consider_advice(const Job& job)
 {
   const ensemble::Summary& summary = last_ensemble_.summary;
-  if (!settings_.advice || !scene_.hull || search_ || summary.figures.empty())
+  if (!settings_.advice || !scene_.hull || summary.figures.empty())
     return;
   const OpeningAngles now = job.state.opening().angles(std::max(0.0, job.state.opening().known_until_s()));
   const double most = std::max(now.port_rad, now.starboard_rad);
   if (most >= scene_.hull->full_opening() - settings_.tolerance_rad ||
-      summary.figures[ensemble::release_time_figure()].p90 <= last_ensemble_.from_s)
+      summary.figures[ensemble::release_time_figure()].p90 <= last_ensemble_.from_s) {
+    search_.reset();
+    last_ensemble_.advice = {};  // nothing is left to be advised
     return;
-  if (searched_at_ && same(*searched_at_, now))
+  }
+  if (search_ || (searched_at_ && same(*searched_at_, now)))
     return;
   searched_at_ = now;
   search_.emplace(*settings_.advice);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "geocontainer_mpm/ensemble/sampling.h"
-#include "geocontainer_mpm/error.h"
 
 namespace geocontainer_mpm::forecast {
 namespace {
@@ -22,16 +21,10 @@ EnsemblePlan draw_members(const std::string& scene, const std::vector<std::strin
   EnsemblePlan plan;
   plan.seed = seed;
   plan.inputs = ensemble::load_inputs(distributions);
-  for (const std::string& assignment : overrides)
-    for (const ensemble::Input& input : plan.inputs)
-      if (assignment.compare(0, input.key.size() + 1, input.key + "=") == 0)
-        throw InputError("", "scene_overrides", assignment, "is drawn by " + distributions);
   plan.values = ensemble::draw(plan.inputs, members, seed);
-  for (const std::vector<std::string>& row : plan.values) {
-    std::vector<std::string> all = overrides;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      all.push_back(plan.inputs[i].key + "=" + row[i]);
-    plan.scenes.push_back(scene::load_scene(scene, all));
+  for (const std::vector<std::string>& member :
+       ensemble::assignments(plan.inputs, plan.values, overrides, "", "scene_overrides", distributions)) {
+    plan.scenes.push_back(scene::load_scene(scene, member));
     plan.scenes.back().time.end_s = no_end_s;
   }
   return plan;

@@ -12,10 +12,8 @@
 
 namespace geocontainer_mpm::program {
 
-scene::SceneDescription load_case(const Options& options, const std::vector<std::string>& more)
+scene::SceneDescription load_case(const Options& options, const std::vector<std::string>& overrides)
 {
-  std::vector<std::string> overrides = options.overrides;
-  overrides.insert(overrides.end(), more.begin(), more.end());
   scene::SceneDescription scene = scene::load_scene(options.scene, overrides);
   if (options.until_s)
     scene.time.end_s = std::min(scene.time.end_s, *options.until_s);

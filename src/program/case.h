@@ -10,8 +10,8 @@
 
 namespace geocontainer_mpm::program {
 
-/// The scene with the overrides of the command line, then `more`, and the cap of its end.
-scene::SceneDescription load_case(const Options& options, const std::vector<std::string>& more = {});
+/// The scene with these overrides, `key=value`, and the cap of its end.
+scene::SceneDescription load_case(const Options& options, const std::vector<std::string>& overrides);
 
 /// Samples of the log; none where the scene's own opening is used.
 std::vector<barge::OpeningSample> read_log(const Options& options);

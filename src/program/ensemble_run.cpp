@@ -29,14 +29,6 @@ struct Plan {
   std::vector<barge::OpeningSample> samples;
 };
 
-void refuse_fixed_inputs(const Options& options, const std::vector<ensemble::Input>& inputs)
-{
-  for (const std::string& assignment : options.overrides)
-    for (const ensemble::Input& input : inputs)
-      if (assignment.compare(0, input.key.size() + 1, input.key + "=") == 0)
-        throw InputError("command line", "--set", assignment, "is drawn by " + options.distributions);
-}
-
 void check_outputs(const Options& options)
 {
   if (!options.members.empty())
@@ -52,15 +44,12 @@ Plan make_plan(const Options& options)
 {
   Plan plan;
   plan.inputs = ensemble::load_inputs(options.distributions);
-  refuse_fixed_inputs(options, plan.inputs);
-  plan.samples = read_log(options);
   plan.values = ensemble::draw(plan.inputs, options.ensemble, options.seed);
-  for (const std::vector<std::string>& row : plan.values) {
-    std::vector<std::string> drawn;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      drawn.push_back(plan.inputs[i].key + "=" + row[i]);
-    plan.scenes.push_back(load_case(options, drawn));
-  }
+  const auto members = ensemble::assignments(plan.inputs, plan.values, options.overrides, "command line", "--set",
+                                             options.distributions);
+  plan.samples = read_log(options);
+  for (const std::vector<std::string>& member : members)
+    plan.scenes.push_back(load_case(options, member));
   return plan;
 }
 

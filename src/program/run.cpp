@@ -188,7 +188,7 @@ int run(const Options& options)
   const auto seconds = [](Clock::duration duration) { return std::chrono::duration<double>(duration).count(); };
   const StopRequest stop;
 
-  const scene::SceneDescription scene = load_case(options);
+  const scene::SceneDescription scene = load_case(options, options.overrides);
   check_outputs(options);
   const std::vector<barge::OpeningSample> samples = read_log(options);
   const std::uint64_t opening = record::opening_hash(samples);

@@ -6,21 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "message_parts.h"
 #include "outline.h"
 
 namespace geocontainer_mpm::ros_bridge {
 namespace {
 
-constexpr double degrees_per_radian = 57.29577951308232;
-
-geometry_msgs::Point to_point(const Vec3& in_barge, const View& view)
+geometry_msgs::Point to_placed_point(const Vec3& in_barge, const View& view)
 {
-  const Vec3 position = view.pose * in_barge;
-  geometry_msgs::Point point;
-  point.x = position.x();
-  point.y = position.y();
-  point.z = position.z();
-  return point;
+  return to_point(Vec3(view.pose * in_barge));
 }
 
 bool finite(const Vec3& vector)
@@ -192,7 +186,7 @@ GeotextileForces to_geotextile_forces(const scene::GeotextileFrame& sheet, const
   forces.name = sheet.name;
   forces.nodes.reserve(sheet.node.size());
   for (const Vec3& node : sheet.node)
-    forces.nodes.push_back(to_point(node, view));
+    forces.nodes.push_back(to_placed_point(node, view));
   for (const scene::Triangle& triangle : sheet.triangles)
     forces.triangles.insert(forces.triangles.end(), triangle.begin(), triangle.end());
   forces.tension = sheet.gauge_tension;
@@ -272,10 +266,10 @@ ReleaseStatus to_release_status(const Progress& progress, const AlarmReport& ala
   message.current_tension = status.current_tension_n_per_m;
   message.peak_tension = status.peak_tension_n_per_m;
   message.peak_tension_time = to_duration(status.peak_tension_time_s);
-  message.peak_tension_position = to_point(status.peak_tension_position_m, view);
+  message.peak_tension_position = to_placed_point(status.peak_tension_position_m, view);
   message.peak_utilisation =
       progress.seam_strength_n_per_m > 0.0 ? status.peak_tension_n_per_m / progress.seam_strength_n_per_m : 0.0;
-  message.centroid = to_point(status.centroid_m, view);
+  message.centroid = to_placed_point(status.centroid_m, view);
   message.width = status.width_m;
   message.height = status.height_m;
   message.real_time_factor = progress.real_time_factor;

@@ -7,6 +7,7 @@
 
 #include "geocontainer_mpm/ensemble/members.h"
 #include "geocontainer_mpm/ros/conversions.h"
+#include "message_parts.h"
 
 namespace geocontainer_mpm::ros_bridge {
 namespace {
@@ -16,20 +17,9 @@ using forecast::Forecast;
 using forecast::Instant;
 using forecast::Verdict;
 
-constexpr double degrees_per_radian = 57.29577951308232;
-
 ros::Time stamp_of(std::int64_t origin_ns, double time_s)
 {
   return to_time(origin_ns + std::llround(time_s * 1e9), ros::Time());
-}
-
-geometry_msgs::Point to_point(const Vec3& position)
-{
-  geometry_msgs::Point point;
-  point.x = position.x();
-  point.y = position.y();
-  point.z = position.z();
-  return point;
 }
 
 double largest_utilisation(const scene::StatusFrame& status)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geocontainer_mpm/ros/conversions.h"
+#include "message_parts.h"
 #include "outline.h"
 
 namespace geocontainer_mpm::ros_bridge {
@@ -18,19 +19,10 @@ const Eigen::Vector3f face_colour(0.7f, 0.75f, 0.82f), outline_colour(0.35f, 0.3
 constexpr double legend_height_m = 0.32;
 constexpr double legend_above_hinge_m = 2.4;
 
-geometry_msgs::Point to_point(const Vec3& position)
-{
-  geometry_msgs::Point point;
-  point.x = position.x();
-  point.y = position.y();
-  point.z = position.z();
-  return point;
-}
-
 /// A point of a plane-strain section, drawn at x.
-geometry_msgs::Point to_point(double x, const Vec3& section)
+geometry_msgs::Point to_point_at(double x, const Vec3& section)
 {
-  return to_point({ x, section.y(), section.z() });
+  return to_point(Vec3(x, section.y(), section.z()));
 }
 
 std_msgs::ColorRGBA to_colour(const Eigen::Vector3f& rgb, float alpha = 1.0f)
@@ -117,8 +109,9 @@ Marker geotextile_ribbon(const scene::GeotextileFrame& sheet, int id, const View
     const Vec3& from = sheet.node[i];
     const Vec3& to = sheet.node[(i + 1) % nodes];
     const std_msgs::ColorRGBA colour = colour_of_piece(sheet, i, shade(to - from, Vec3::UnitX(), to_lamp));
-    const std::array<geometry_msgs::Point, 4> corners = { to_point(0.0, from), to_point(0.0, to),
-                                                          to_point(-view.width_m, from), to_point(-view.width_m, to) };
+    const std::array<geometry_msgs::Point, 4> corners = { to_point_at(0.0, from), to_point_at(0.0, to),
+                                                          to_point_at(-view.width_m, from),
+                                                          to_point_at(-view.width_m, to) };
     for (const std::size_t corner : { 0u, 1u, 2u, 2u, 1u, 3u }) {
       marker.points.push_back(corners[corner]);
       marker.colors.push_back(colour);
@@ -160,12 +153,12 @@ Marker boundary_outline(const scene::BoundaryFrame& boundary, int id, const View
   const std::size_t pieces = boundary.closed ? count : count - 1;
   for (const double x : { 0.0, -view.width_m })
     for (std::size_t i = 0; i < pieces; ++i) {
-      marker.points.push_back(to_point(x, boundary.position[i]));
-      marker.points.push_back(to_point(x, boundary.position[(i + 1) % count]));
+      marker.points.push_back(to_point_at(x, boundary.position[i]));
+      marker.points.push_back(to_point_at(x, boundary.position[(i + 1) % count]));
     }
   for (const std::size_t end : { std::size_t{ 0 }, boundary.position.size() - 1 }) {
-    marker.points.push_back(to_point(0.0, boundary.position[end]));
-    marker.points.push_back(to_point(-view.width_m, boundary.position[end]));
+    marker.points.push_back(to_point_at(0.0, boundary.position[end]));
+    marker.points.push_back(to_point_at(-view.width_m, boundary.position[end]));
   }
   return marker;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geocontainer_mpm/ros/conversions.h"
+#include "message_parts.h"
 
 namespace geocontainer_mpm::ros_bridge {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 using alarm::Level;
 using alarm::Reading;
 
-constexpr double degrees_per_radian = 57.29577951308232;
 constexpr std::int64_t counting_ns = 5'000'000'000;  ///< over which the share of rejected samples is taken
 constexpr std::uint64_t fewest_counted = 5;          ///< of fewer samples no share is made
 constexpr double burst_s = 1.0;  ///< a sender that sends in bursts, or a pause that ends, makes a lag that is soon over

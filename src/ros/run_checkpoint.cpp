@@ -1,7 +1,6 @@
 #include "geocontainer_mpm/ros/run_checkpoint.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "geocontainer_mpm/error.h"
+#include "geocontainer_mpm/forecast/run_ahead.h"
 #include "geocontainer_mpm/record/checkpoint.h"
 #include "geocontainer_mpm/record/whole_file.h"
 #include "geocontainer_mpm/ros/opening_input.h"
@@ -18,19 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t least_work_per_save = 20;  ///< a run is held up for a twentieth of the time at most
+constexpr double least_work_per_save = 20.0;  ///< a run is held up for a twentieth of the time at most
 
 double seconds(std::int64_t ns)
 {
   return static_cast<double>(ns) / 1e9;
-}
-
-/// Processor time of this thread: a machine that is busy with other things must not make checkpoints rare.
-std::int64_t spent_ns()
-{
-  timespec spent{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return spent.tv_sec * 1'000'000'000 + spent.tv_nsec;
 }
 
 std::string unused(const std::string& path)
@@ -79,7 +71,8 @@ void RunCheckpoint::save(const scene::Simulation& simulation)
   if (writer_.valid() && writer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return;
   look_at_writer();
-  const std::int64_t begin_ns = spent_ns();
+  // Processor time: a machine that is busy with other things must not make checkpoints rare.
+  const double begin_s = forecast::thread_cpu_time_s();
   try {
     std::string bytes = record::checkpoint_bytes(simulation, record::opening_hash({}));
     if (!bytes.empty()) {
@@ -90,9 +83,9 @@ void RunCheckpoint::save(const scene::Simulation& simulation)
   } catch (const std::exception& error) {
     error_ = error.what();
   }
-  const std::int64_t cost_ns = spent_ns() - begin_ns;
-  cost_s_ = std::max(cost_s_, seconds(cost_ns));
-  due_ns_ = steady_now_ns() + std::max(period_ns_, least_work_per_save * cost_ns);
+  const double cost_s = forecast::thread_cpu_time_s() - begin_s;
+  cost_s_ = std::max(cost_s_, cost_s);
+  due_ns_ = steady_now_ns() + std::max(period_ns_, static_cast<std::int64_t>(least_work_per_save * cost_s * 1e9));
 }
 
 void RunCheckpoint::look_at_writer()

@@ -24,4 +24,11 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t members, const std:
 /// of a machine's exp and log differ by does not reach them.
 std::vector<std::vector<std::string>> draw(const std::vector<Input>& inputs, std::size_t members, std::uint64_t seed);
 
+/// Members as assignments for a scene, `key=value`: `overrides`, then what is drawn; a row a member. Throws InputError
+/// from `source` and `key` for an override of what is drawn by `distributions`.
+std::vector<std::vector<std::string>> assignments(const std::vector<Input>& inputs,
+                                                  const std::vector<std::vector<std::string>>& values,
+                                                  const std::vector<std::string>& overrides, const std::string& source,
+                                                  const std::string& key, const std::string& distributions);
+
 }  // namespace geocontainer_mpm::ensemble

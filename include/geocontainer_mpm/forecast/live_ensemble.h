@@ -50,7 +50,7 @@ public:
   void reset();  ///< another log begins
 
   /// Every member follows `so_far` as far as it is known, and from there goes on under `ahead`, which continues it and
-  /// is finished, for `horizon_s`. A member that could not be built or had to stop says so in its place.
+  /// is finished, as far as `reach`. A member that could not be built or had to stop says so in its place.
   std::vector<ensemble::Member> run_ahead(const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
                                           const Reach& reach, const std::function<bool()>& stop);
   double cost_s() const { return cost_s_; }  ///< processor time of the last run_ahead(), all threads
