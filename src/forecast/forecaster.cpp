@@ -278,10 +278,13 @@ void Forecaster::run_ensembles()
       searched_at_.reset();
       last_ensemble_ = {};
     }
-    if (!ensembling_.published || ensembling_.stale || Clock::now() >= ensembling_.due)
-      pass_ensemble(lock);
-    else
+    // In turns: members that take longer than their period, or a hull that accelerates, would leave no time for advice.
+    const bool due = !ensembling_.published || ensembling_.stale || Clock::now() >= ensembling_.due;
+    if (search_ && (rate_is_next_ || !due))
       try_rate(lock);
+    else
+      pass_ensemble(lock);
+    rate_is_next_ = !rate_is_next_;
   }
 }
 

@@ -177,6 +177,7 @@ TEST(Forecaster, KeepsAnEnsembleAndAdvisesARate)
   const scene::SceneDescription scene = coarse_release();
   ForecasterSettings settings = quick();
   settings.advice = AdviceSettings{ 10.0, 0.05, 0.3, 3, 1 };  // any rate will do
+  settings.ensemble_period_s = 1e-3;                          // always due: advice gets its turn all the same
   LiveRun live(scene);
   Received received;
   auto ensemble = std::make_unique<LiveEnsemble>(
@@ -197,6 +198,9 @@ TEST(Forecaster, KeepsAnEnsembleAndAdvisesARate)
   EXPECT_GT(release.p10, 1.5);
   EXPECT_EQ(last.advice.verdict, Verdict::any_rate);
   EXPECT_EQ(last.advice.rate_rad_per_s, 0.3);
+
+  follow(live, forecaster, log_end_s + 1.0);  // the hull is open: nothing is left to be advised
+  EXPECT_TRUE(serve(live, forecaster, [&] { return received.ensembles().back().advice.verdict == Verdict::none; }));
 }
 
 }  // namespace

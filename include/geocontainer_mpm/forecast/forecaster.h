@@ -102,6 +102,7 @@ private:
   std::uint64_t ensemble_run_ = 1;
   EnsembleForecast last_ensemble_;
   std::optional<RateSearch> search_;
+  bool rate_is_next_ = false;                        ///< of a search, before the next pass
   std::optional<barge::OpeningAngles> searched_at_;  ///< opening of the last search
 
   std::atomic<bool> quit_{ false };
