@@ -159,14 +159,18 @@ def main():
     moving = [row for row in fresh if row["from_s"] > moved - begun and not math.isnan(row["release_s"])]
     at_half = [row for row in fresh if row["arrived_s"] <= half - begun]
     lags = [m.lag for _, m in status if moved < m.header.stamp.to_sec() < release + 3.0]
-    gaps = [b[0] - a[0] for a, b in zip(ensembles, ensembles[1:])]
+    refreshed = []  # a message that brings new advice alone has the stamp of the ensemble before
+    for arrived, message in ensembles:
+        if not refreshed or message.header.stamp != refreshed[-1][1].header.stamp:
+            refreshed.append((arrived, message))
+    gaps = [b[0] - a[0] for a, b in zip(refreshed, refreshed[1:])]
     print(f"release {final.release_time.to_sec():.2f} s, peak {final.peak_tension / 1e3:.1f} kN/m; hull moves at "
           f"{moved - begun:.2f} s, half open at {half - begun:.2f} s")
     print(f"first forecast of a release {moving[0]['arrived_s'] - (moved - begun):.2f} s after the hull's first movement")
     print(f"in hand at half opening: {at_half[-1]}")
     print(f"lag while it releases: median {percentile(lags, 0.5):.2f}, 95 % {percentile(lags, 0.95):.2f}, most {max(lags):.2f} s")
     print(f"{len(fresh)} forecasts, cost {percentile([r['cost_s'] for r in fresh], 0.5):.2f} s median; "
-          f"ensembles at {[round(t - begun, 1) for t, _ in ensembles]}, intervals at most {max(gaps, default=math.nan):.1f} s")
+          f"ensembles at {[round(t - begun, 1) for t, _ in refreshed]}, intervals at most {max(gaps, default=math.nan):.1f} s")
     for t, m in ensembles:
         print(f"  {t - begun:5.1f} s: {m.completed}/{m.members} release in {m.release_delay.p10:.1f} {m.release_delay.p50:.1f} "
               f"{m.release_delay.p90:.1f} s, peak {m.peak_tension.p10/1e3:.0f} {m.peak_tension.p50/1e3:.0f} "
