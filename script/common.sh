@@ -68,8 +68,9 @@ need_ros() {
   fi
 }
 
-# The core is compiled for itself and for ROS with the same flags: ccache makes it once. What it keeps stays in the checkout.
-export CCACHE_DIR="${CCACHE_DIR:-$PWD/.ccache}" CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1
+# The core is compiled for itself and for ROS with the same flags: ccache makes it once, and once for all checkouts (its
+# own folder, CCACHE_DIR, says where): what a second clone compiles is what differs.
+export CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1
 
 # configure FOLDER [CMake option...]
 configure() {
