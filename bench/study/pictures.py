@@ -10,6 +10,7 @@ from matplotlib.colors import Normalize
 from figures import at, figures, tension_histories
 from plotting import plot_record as pr
 
+MOST_LINES = 15
 COLOURS = [pr.BLACK, pr.RED, pr.BLUE, pr.GREEN, pr.ORANGE, pr.SKY]
 LINES = ["-", "--", "-.", ":"]
 AXES = {"release_time_s": ("release time [s]", 1.0), "peak_tension_n_per_m": ("peak tension [kN/m]", 1e-3),
@@ -83,14 +84,14 @@ def draw_sections(sweep, shown, path):
 
 
 def draw_tension_history(sweep, results, path):
-    """Largest tension against time, of every run, of the pictured ones where there are several sheets; returns whether
-    there was any."""
+    """Largest tension against time: of every run, of the pictured ones where there are several sheets or more lines than
+    can be told apart; returns whether there was any."""
     figure, ax = plt.subplots(figsize=(8.5, 3.8), layout="constrained")
     released = 0.0
     lines = [(row.label, name, history) for row in sweep.rows
              for name, history in tension_histories(results[row.label].summary).items()]
     several = any(name != lines[0][1] for _, name, _ in lines)
-    if several:
+    if several or len(lines) > MOST_LINES:
         lines = [line for line in lines if line[0] in sweep.pictured]
     for number, (label, name, (time, tension)) in enumerate(lines):
         ax.plot(time, np.asarray(tension, dtype=float) / 1e3, linewidth=1.1,
