@@ -22,6 +22,7 @@ ros_packages=(ros-core-dev catkin
   python3-rostopic rosbash rosout librostest-dev python3-rostest python3-rosunit
   ros-robot-state-publisher)
 demo_packages=(rviz imagemagick xvfb xauth x11-utils libgl1-mesa-dri procps)
+browser_packages=(chromium chromium-driver python3-selenium)
 lint_packages=(git clang-format clang-tidy catkin-lint)
 bench_packages=(libbenchmark-dev)
 
@@ -69,8 +70,11 @@ need_ros() {
 }
 
 # The core is compiled for itself and for ROS with the same flags: ccache makes it once, and once for all checkouts (its
-# own folder, CCACHE_DIR, says where): what a second clone compiles is what differs.
+# own folder, CCACHE_DIR, says where): what a second clone compiles is what differs. -march=native is another flag on
+# every processor, which ccache does not know.
 export CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1
+CCACHE_NAMESPACE=$(grep -m 1 '^flags' /proc/cpuinfo | md5sum | cut -c 1-8)
+export CCACHE_NAMESPACE
 
 # configure FOLDER [CMake option...]
 configure() {

@@ -276,6 +276,7 @@ void Forecaster::run_ensembles()
       lock.lock();
       search_.reset();
       searched_at_.reset();
+      growing_ = false;
       last_ensemble_ = {};
     }
     // In turns: members that take longer than their period, or a hull that accelerates, would leave no time for advice.
@@ -307,6 +308,7 @@ void Forecaster::pass_ensemble(Lock& lock)
     for (const ensemble::Input& input : ensemble_->plan().inputs)
       last_ensemble_.inputs.push_back(input.key);
     last_ensemble_.summary = ensemble::summarise(members, ensemble_->plan().values);
+    last_ensemble_.tension = ensemble_->tension();
     last_ensemble_.cost_s = ensemble_->cost_s();
     consider_advice(*job);
     hooks_.ensemble(last_ensemble_);
@@ -316,7 +318,7 @@ void Forecaster::pass_ensemble(Lock& lock)
 
 std::vector<ensemble::Member> Forecaster::members_ahead(const scene::Snapshot& state, const AssumedOpening& assumed)
 {
-  return ensemble_->run_ahead(state.opening(), ahead(assumed, state), settings_.reach,
+  return ensemble_->run_ahead(state.opening(), ahead(assumed, state), settings_.reach, settings_.interval_s,
                               [this] { return ensembling_.give_up.load(); });
 }
 
@@ -331,6 +333,7 @@ void Forecaster::consider_advice(const Job& job)
   if (most >= scene_.hull->full_opening() - settings_.tolerance_rad ||
       summary.figures[ensemble::release_time_figure()].p90 <= last_ensemble_.from_s) {
     search_.reset();
+    growing_ = false;
     last_ensemble_.advice = {};  // nothing is left to be advised
     return;
   }
@@ -356,11 +359,17 @@ void Forecaster::try_rate(Lock& lock)
   if (done) {
     search_->add(summary.figures.empty() ? std::numeric_limits<double>::infinity()
                                          : summary.figures[ensemble::peak_utilisation_figure()].p90);
-    if (!search_->next()) {
-      last_ensemble_.advice = search_->advice();
-      search_.reset();
+    // Advice of an earlier search stands until the new one is done; the first one is told as it grows.
+    const Advice advice = search_->advice();
+    const bool over = !search_->next();
+    const bool is_first = growing_ || last_ensemble_.advice.verdict == Verdict::none;
+    if (over || (is_first && advice.verdict != Verdict::none)) {
+      last_ensemble_.advice = advice;
+      growing_ = !over;
       hooks_.ensemble(last_ensemble_);
     }
+    if (over)
+      search_.reset();
   }
   lock.lock();
 }

@@ -2,16 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
 #include "geocontainer_mpm/ensemble/sampling.h"
+#include "geocontainer_mpm/ensemble/statistics.h"
 
 namespace geocontainer_mpm::forecast {
 namespace {
 
 /// The members follow a log for as long as it goes on: eleven days.
 constexpr double no_end_s = 1e6;
+
+/// The first instant that is not before `time_s`.
+std::size_t instant_at(double time_s, double from_s, double interval_s)
+{
+  return static_cast<std::size_t>(std::max(0.0, std::ceil((time_s - from_s) / interval_s - 1e-9)));
+}
+
+void keep_largest(std::vector<double>& tension, std::size_t instant, double now)
+{
+  if (instant < tension.size())
+    tension[instant] = std::max(tension[instant], now);
+  else
+    tension.resize(instant + 1, now);
+}
 
 }  // namespace
 
@@ -61,10 +78,11 @@ void LiveEnsemble::follow(std::size_t i, const barge::OpeningSignal& so_far, con
 }
 
 ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningSignal& so_far,
-                                            const barge::OpeningSignal& ahead, const Reach& reach,
+                                            const barge::OpeningSignal& ahead, const Reach& reach, double interval_s,
                                             const std::function<bool()>& stop)
 {
   Follower& follower = followers_[i];
+  follower.tension.clear();
   try {
     if (follower.failed.empty())
       follow(i, so_far, stop);
@@ -77,8 +95,12 @@ ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningS
     scene.time.end_s = now->time_s() + reach.horizon_s;
     scene::Simulation run(scene, 1, *now);
     run.opening() = ahead;
-    return ensemble::advance_member(
-        run, [&](const scene::Simulation& simulation) { return nothing_more_to_see(simulation, reach); }, stop);
+    const auto look = [&, from_s = so_far.known_until_s()](const scene::Simulation& at) {
+      keep_largest(follower.tension, instant_at(at.time_s(), from_s, interval_s), at.status().current_tension_n_per_m);
+      return nothing_more_to_see(at, reach);
+    };
+    look(run);
+    return ensemble::advance_member(run, look, stop);
   } catch (const std::exception& error) {  // a scene that cannot be built, or no memory
     follower.failed = error.what();
     return ensemble::failed_member(error.what());
@@ -87,7 +109,7 @@ ensemble::Member LiveEnsemble::member_ahead(std::size_t i, const barge::OpeningS
 
 std::vector<ensemble::Member> LiveEnsemble::run_ahead(const barge::OpeningSignal& so_far,
                                                       const barge::OpeningSignal& ahead, const Reach& reach,
-                                                      const std::function<bool()>& stop)
+                                                      double interval_s, const std::function<bool()>& stop)
 {
   std::mutex adding;
   double cost = 0.0;
@@ -95,14 +117,36 @@ std::vector<ensemble::Member> LiveEnsemble::run_ahead(const barge::OpeningSignal
       followers_.size(), threads_,
       [&](std::size_t i) {
         const double began = thread_cpu_time_s();
-        ensemble::Member member = member_ahead(i, so_far, ahead, reach, stop);
+        ensemble::Member member = member_ahead(i, so_far, ahead, reach, interval_s, stop);
         const std::lock_guard<std::mutex> lock(adding);
         cost += thread_cpu_time_s() - began;
         return member;
       },
       [] {});
   cost_s_ = cost;
+  find_tension(members, so_far.known_until_s(), interval_s);
   return members;
+}
+
+void LiveEnsemble::find_tension(const std::vector<ensemble::Member>& members, double from_s, double interval_s)
+{
+  tension_ = {};
+  std::vector<const std::vector<double>*> histories;
+  std::size_t instants = 0;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (members[i].ending == ensemble::Ending::completed) {
+      histories.push_back(&followers_[i].tension);
+      instants = std::max(instants, followers_[i].tension.size());
+    }
+  std::vector<double> now(histories.size());
+  for (std::size_t k = 0; k < instants; ++k) {
+    for (std::size_t m = 0; m < histories.size(); ++m)
+      now[m] = (*histories[m])[std::min(k, histories[m]->size() - 1)];
+    tension_.time_s.push_back(from_s + static_cast<double>(k) * interval_s);
+    tension_.p10.push_back(ensemble::quantile(now, 0.1));
+    tension_.p50.push_back(ensemble::quantile(now, 0.5));
+    tension_.p90.push_back(ensemble::quantile(now, 0.9));
+  }
 }
 
 }  // namespace geocontainer_mpm::forecast

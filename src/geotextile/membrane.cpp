@@ -47,8 +47,8 @@ Membrane::Membrane(const TriangleMesh& mesh, const MembraneParameters& parameter
     : parameters_(parameters)
     , triangles_(mesh.triangles)
     , closed_(mesh.closed)
-    , family_{ { { ForceStrain(parameters.warp_stiffness, parameters.warp_force_strain), {}, {}, {}, {}, {} },
-                 { ForceStrain(parameters.weft_stiffness, parameters.weft_force_strain), {}, {}, {}, {}, {} } } }
+    , family_{ { { ForceStrain(parameters.warp_stiffness, parameters.warp_force_strain), {}, {}, {}, {}, {}, {} },
+                 { ForceStrain(parameters.weft_stiffness, parameters.weft_force_strain), {}, {}, {}, {}, {}, {} } } }
 {
   nodes_.resize(mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -62,11 +62,18 @@ Membrane::Membrane(const TriangleMesh& mesh, const MembraneParameters& parameter
   for (Family& family : family_) {
     for (mpm::Column* column : { &family.b1, &family.b2, &family.strain, &family.tension })
       column->assign(n, 0.0);
+    family.rupture_strain.assign(n, parameters_.rupture_strain.value_or(std::numeric_limits<double>::infinity()));
     family.broken.assign(n, 0);
   }
   for (std::size_t t = 0; t < n; ++t)
     lay(mesh, t);
   find_neighbours(mesh);
+}
+
+void Membrane::tear_at(std::size_t triangle, double tension)
+{
+  double& rupture_strain = family_[0].rupture_strain[triangle];
+  rupture_strain = std::min(rupture_strain, family_[0].law.strain(tension));
 }
 
 /// Unstretched area, coefficients of the yarns and masses of a triangle.
@@ -112,7 +119,7 @@ double Membrane::carried(Family& family, std::size_t triangle, double strain)
     return 0.0;
   const double before = family.strain[triangle];
   family.strain[triangle] = strain;
-  if (!parameters_.rupture_strain || strain < *parameters_.rupture_strain)
+  if (strain < family.rupture_strain[triangle])
     return family.law.force(strain);
   const double lost =
       cloth_[triangle] * (family.law.energy(before) + 0.5 * family.law.force(before) * (strain - before));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geocontainer_mpm::geotextile {
 namespace {
@@ -39,7 +40,17 @@ Sheet::Sheet(const SheetLayout& layout, const SheetParameters& parameters)
   if (strains_with_grid())
     lay_points();
   strain_.assign(piece_length_.size(), 0.0);
+  rupture_strain_.assign(piece_length_.size(),
+                         parameters.rupture_strain.value_or(std::numeric_limits<double>::infinity()));
   broken_.assign(piece_length_.size(), 0);
+}
+
+void Sheet::tear_at(std::size_t segment, double tension)
+{
+  const double strain = law_.strain(tension);
+  rupture_strain_[segment] = std::min(rupture_strain_[segment], strain);
+  if (strains_with_grid())
+    rupture_strain_[end_of(segment)] = std::min(rupture_strain_[end_of(segment)], strain);
 }
 
 /// Tension of a piece at its new strain, N/m. Where it breaks, what was stored in it and half of the last step's work,
@@ -50,7 +61,7 @@ double Sheet::carried(std::size_t piece, double strain, const Vec2& place)
     return 0.0;
   const double before = strain_[piece];
   strain_[piece] = strain;
-  if (!parameters_.rupture_strain || strain < *parameters_.rupture_strain)
+  if (strain < rupture_strain_[piece])
     return law_.force(strain);
   nodes_.dissipated[piece] =
       piece_length_[piece] * (law_.energy(before) + 0.5 * law_.force(before) * (strain - before));

@@ -36,8 +36,8 @@ struct StateAccess {
   template <class A>
   static void list(A& archive, geotextile::Sheet& sheet)
   {
-    auto& [parameters, law, nodes, outwards, rest_length, tension, piece_length, strain, broken, ruptures,
-           rupture_place, external, stretch, tangent, point_tension] = sheet;
+    auto& [parameters, law, nodes, outwards, rest_length, tension, piece_length, strain, rupture_strain, broken,
+           ruptures, rupture_place, external, stretch, tangent, point_tension] = sheet;
     GEOCONTAINER_MPM_STATE(nodes, tension, strain, broken, ruptures, rupture_place, external, stretch, tangent,
                            point_tension);
   }
@@ -49,7 +49,7 @@ struct StateAccess {
            share] = membrane;
     GEOCONTAINER_MPM_STATE(nodes, tension, ruptures, rupture_place, external);
     archive.parts("family", family, [](auto& inside, auto& yarns) {
-      auto& [law, b1, b2, strain, yarn_tension, broken] = yarns;
+      auto& [law, b1, b2, strain, rupture_strain, yarn_tension, broken] = yarns;
       inside.members("strain, tension, broken", strain, yarn_tension, broken);
     });
   }

@@ -100,9 +100,20 @@ std::vector<double> correlations_of(const ensemble::FigureSummary& summary)
   return values;
 }
 
+std::string rates(const forecast::Advice& advice)
+{
+  const double fastest = advice.rate_rad_per_s * degrees_per_radian;
+  const double slowest = advice.slowest_rad_per_s * degrees_per_radian;
+  if (slowest == 0.0)
+    return fmt::format("at most {:.2f} deg/s", fastest);
+  return slowest == fastest ? fmt::format("{:.2f} deg/s, not slower,", fastest)
+                            : fmt::format("{:.2f} to {:.2f} deg/s, not slower,", slowest, fastest);
+}
+
 void add_advice(const forecast::Advice& advice, ReleaseEnsemble& message)
 {
   message.advised_rate = advice.rate_rad_per_s;
+  message.slowest_rate = advice.slowest_rad_per_s;
   message.advised_utilisation = advice.utilisation;
   message.utilisation_limit = advice.utilisation_limit;
   const double rate = advice.rate_rad_per_s * degrees_per_radian;
@@ -116,7 +127,7 @@ void add_advice(const forecast::Advice& advice, ReleaseEnsemble& message)
       return;
     case Verdict::rate:
       message.advice = ReleaseEnsemble::RATE;
-      message.message += fmt::format("; open with at most {:.2f} deg/s for each half", rate);
+      message.message += "; open with " + rates(advice) + " for each half";
       return;
     case Verdict::no_rate:
       message.advice = ReleaseEnsemble::NO_RATE;
@@ -203,6 +214,11 @@ ReleaseEnsemble to_release_ensemble(const EnsembleForecast& ensemble)
   message.final_width = quantiles_of(summary.figures[ensemble::width_figure()]);
   message.hung_up = summary.hung_up ? summary.hung_up->value : 0.0;
   message.ruptured = summary.ruptured ? summary.ruptured->value : 0.0;
+  for (const double time_s : ensemble.tension.time_s)
+    message.stamps.push_back(stamp_of(ensemble.origin_ns, time_s));
+  message.tension_p10 = ensemble.tension.p10;
+  message.tension_p50 = ensemble.tension.p50;
+  message.tension_p90 = ensemble.tension.p90;
   message.tension_correlation = correlations_of(tension);
   message.release_correlation = correlations_of(release);
   message.message =

@@ -47,6 +47,14 @@ vessel::Band to_band(const Quantiles& quantiles)
   return { quantiles.p10, quantiles.p50, quantiles.p90 };
 }
 
+std::vector<double> seconds(const std::vector<ros::Time>& stamps)
+{
+  std::vector<double> times;
+  for (const ros::Time& stamp : stamps)
+    times.push_back(stamp.toSec());
+  return times;
+}
+
 double largest(const std::vector<double>& values)
 {
   return values.empty() ? vessel::unknown : *std::max_element(values.begin(), values.end());
@@ -104,12 +112,8 @@ vessel::ForecastFigures to_figures(const ReleaseForecast& forecast)
   }
   figures.peak_tension_n_per_m = largest(forecast.peak_tension);
   figures.peak_utilisation = largest(forecast.utilisation);
-  if (forecast.stamps.size() == forecast.tension.size() && !forecast.stamps.empty()) {
-    std::vector<double> time;
-    for (const ros::Time& stamp : forecast.stamps)
-      time.push_back(stamp.toSec());
-    figures.curve = vessel::thin_curve(time, forecast.tension);
-  }
+  if (forecast.stamps.size() == forecast.tension.size() && !forecast.stamps.empty())
+    figures.curve = vessel::thin_curve(seconds(forecast.stamps), forecast.tension);
   return figures;
 }
 
@@ -122,6 +126,12 @@ vessel::EnsembleFigures to_figures(const ReleaseEnsemble& ensemble)
   figures.peak_utilisation = to_band(ensemble.peak_utilisation);
   figures.release_delay_s = to_band(ensemble.release_delay);
   figures.final_width_m = to_band(ensemble.final_width);
+  const std::size_t instants = ensemble.stamps.size();
+  if (instants > 0 && ensemble.tension_p10.size() == instants && ensemble.tension_p50.size() == instants &&
+      ensemble.tension_p90.size() == instants)
+    figures.tension = vessel::thin_band(
+        seconds(ensemble.stamps),
+        { { "p10", ensemble.tension_p10 }, { "p50", ensemble.tension_p50 }, { "p90", ensemble.tension_p90 } });
   figures.hung_up = ensemble.hung_up;
   figures.ruptured = ensemble.ruptured;
   figures.advice = ensemble.advice == ReleaseEnsemble::ANY_RATE  ? vessel::AdviceState::any_rate
@@ -129,6 +139,7 @@ vessel::EnsembleFigures to_figures(const ReleaseEnsemble& ensemble)
                    : ensemble.advice == ReleaseEnsemble::NO_RATE ? vessel::AdviceState::no_rate
                                                                  : vessel::AdviceState::none;
   figures.advised_rate_rad_per_s = ensemble.advised_rate;
+  figures.slowest_rate_rad_per_s = ensemble.slowest_rate;
   figures.advised_utilisation = ensemble.advised_utilisation;
   figures.advice_message = ensemble.message;
   return figures;

@@ -45,6 +45,7 @@ void describe(V& v, SeamDescription& s)
           closed(0.0, 1.0));
   v.value({ "efficiency", optional, "", "its strength over the sheet's; absent: `seam_efficiency`" }, s.efficiency,
           open_closed(0.0, 1.0));
+  v.value({ "tears", optional, "", "whether it comes apart where its tension reaches its strength" }, s.tears);
 }
 
 template <class V>

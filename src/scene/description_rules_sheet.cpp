@@ -120,6 +120,10 @@ void check_strength(const std::string& key, const GeotextileDescription& sheet, 
     check_choice(seam_key, { { "at_m", seam.at_m.has_value() }, { "along", seam.along.has_value() } }, 1, 1);
     if (seam.at_m)
       check_inside(seam_key + ".at_m", { *seam.at_m, *seam.at_m }, grid);
+    const double strength = seam.efficiency.value_or(sheet.seam_efficiency) * sheet.strength_n_per_m;
+    if (seam.tears && sheet.pretension_n_per_m.value_or(0.0) >= strength)
+      refuse(seam_key + ".tears", "true",
+             fmt::format("its strength, {:.6g} N/m, must be more than pretension_n_per_m", strength));
   }
 }
 

@@ -25,8 +25,23 @@ std::size_t nearest_segment(const geotextile::Sheet& sheet, const Vec2& at)
   return nearest;
 }
 
+geotextile::Strength strength_of(const GeotextileDescription& description, std::vector<geotextile::Seam> seams)
+{
+  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
+}
+
+/// Makes the seams that tear do so.
+template <class SheetOrMembrane>
+void weaken(SheetOrMembrane& sheet, const GeotextileDescription& description,
+            const std::vector<geotextile::Seam>& seams)
+{
+  for (const geotextile::Seam& seam : seams)
+    if (description.seams.at(seam.name).tears)
+      sheet.tear_at(seam.segment, seam.efficiency * description.strength_n_per_m);
+}
+
 /// The seams where they are in the sheet as it is laid.
-geotextile::Strength strength_of(const GeotextileDescription& description, const geotextile::Sheet& sheet)
+std::vector<geotextile::Seam> seams_of(const GeotextileDescription& description, const geotextile::Sheet& sheet)
 {
   std::vector<geotextile::Seam> seams;
   for (const auto& [name, seam] : description.seams) {
@@ -36,7 +51,7 @@ geotextile::Strength strength_of(const GeotextileDescription& description, const
                                   : nearest_segment(sheet, *seam.at_m);
     seams.push_back({ name, place, seam.efficiency.value_or(description.seam_efficiency) });
   }
-  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
+  return seams;
 }
 
 /// A place on a closed line, by the part of its length that lies before it.
@@ -61,8 +76,8 @@ Vec2 side_of(const geotextile::TriangleMesh& mesh, const geotextile::Triangle& t
 
 /// Seams along the barge: of each all pieces of the wall that are extruded from one side of the section.
 /// `outline`: of all of it.
-geotextile::Strength strength_of(const GeotextileDescription& description, const std::vector<Vec2>& outline,
-                                 const geotextile::TriangleMesh& mesh, Symmetry symmetry)
+std::vector<geotextile::Seam> seams_of(const GeotextileDescription& description, const std::vector<Vec2>& outline,
+                                       const geotextile::TriangleMesh& mesh, Symmetry symmetry)
 {
   std::vector<geotextile::Seam> seams;
   for (const auto& [name, seam] : description.seams) {
@@ -80,7 +95,7 @@ geotextile::Strength strength_of(const GeotextileDescription& description, const
       if (distance(t) <= nearest * (1.0 + 1e-9))
         seams.push_back({ name, t, seam.efficiency.value_or(description.seam_efficiency) });
   }
-  return geotextile::Strength(description.strength_n_per_m, description.seam_efficiency, std::move(seams));
+  return seams;
 }
 
 }  // namespace
@@ -109,7 +124,9 @@ ModelSheet<2> lay_sheet(const std::string& name, const GeotextileDescription& de
         scene.source, "geotextiles." + name + ".circumference_m", fmt::format("{}", *description.circumference_m),
         fmt::format("must be at least {:.6g} m, what the path with its wrinkles takes", layout.cloth_length()));
   geotextile::Sheet laid(layout, parameters);
-  const geotextile::Strength strength = strength_of(description, laid);
+  const std::vector<geotextile::Seam> seams = seams_of(description, laid);
+  weaken(laid, description, seams);
+  const geotextile::Strength strength = strength_of(description, seams);
   return { name, 0, std::move(laid), strength, strength };
 }
 
@@ -152,8 +169,10 @@ ModelSheet<3> lay_sheet(const std::string& name, const GeotextileDescription& de
   };
   const geotextile::TriangleMesh mesh = wrapped();
   geotextile::Membrane laid(mesh, parameters);
+  const std::vector<geotextile::Seam> seams = seams_of(description, outline, mesh, scene.symmetry());
+  weaken(laid, description, seams);
   const double weft = description.strength_weft_n_per_m.value_or(description.strength_n_per_m);
-  return { name, 0, std::move(laid), strength_of(description, outline, mesh, scene.symmetry()),
+  return { name, 0, std::move(laid), strength_of(description, seams),
            geotextile::Strength(weft, description.seam_efficiency) };
 }
 

@@ -126,6 +126,8 @@ const std::vector<Figure<EnsembleFigures>>& ensemble_figures()
       [](Ensemble e) { return known(e.peak_tension_n_per_m.p50); } },
     { "ensemble.tension.p90", "N/m", "Peak tension, below it nine tenths of the runs", false,
       [](Ensemble e) { return known(e.peak_tension_n_per_m.p90); } },
+    { "ensemble.tension.curve", "", "time (s since 1970, UTC) and p10, p50, p90 (N/m) of the tension over time", false,
+      [](Ensemble e) { return e.tension.empty() ? Value() : Value(e.tension); } },
     { "ensemble.utilisation.p10", "ratio", "Peak utilisation of sheet or seam, below it a tenth of the runs", false,
       [](Ensemble e) { return known(e.peak_utilisation.p10); } },
     { "ensemble.utilisation.p50", "ratio", "Peak utilisation of sheet or seam, below it half of the runs", false,
@@ -152,6 +154,8 @@ const std::vector<Figure<EnsembleFigures>>& ensemble_figures()
       [](Ensemble e) { return Value(to_string(e.advice)); } },
     { "advice.rate", "rad/s", "Fastest constant opening rate of each half that keeps the limit; null without", false,
       [](Ensemble e) { return advised(e, e.advised_rate_rad_per_s); } },
+    { "advice.slowest", "rad/s", "Rates of each half below this one do not keep the limit; 0: none is too slow", false,
+      [](Ensemble e) { return advised(e, e.slowest_rate_rad_per_s); } },
     { "advice.utilisation", "ratio", "Utilisation at that rate, below it nine tenths of the runs", false,
       [](Ensemble e) { return advised(e, e.advised_utilisation); } },
     { "advice.message", "", "One sentence for the superintendent", false,
@@ -212,6 +216,20 @@ Columns thin_curve(const std::vector<double>& time, const std::vector<double>& t
   if (count > 1)
     keep(count - 1);
   return curve;
+}
+
+Columns thin_band(const std::vector<double>& time, const Columns& curves)
+{
+  Columns band{ { "time", {} } };
+  const std::size_t count = time.size(), stretches = std::min(count, most_points);
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const auto begin = static_cast<std::ptrdiff_t>(s * count / stretches);
+    const auto end = static_cast<std::ptrdiff_t>((s + 1) * count / stretches);
+    band["time"].push_back(short_number(time[static_cast<std::size_t>(end - 1)]));
+    for (const auto& [name, values] : curves)
+      band[name].push_back(std::round(*std::max_element(values.begin() + begin, values.begin() + end)));
+  }
+  return band;
 }
 
 Notice release_notice(const ReleaseFigures& release)

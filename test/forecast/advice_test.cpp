@@ -31,13 +31,39 @@ Search search(const std::function<double(double)>& utilisation)
   return result;
 }
 
-TEST(RateSearch, TriesOneRateWhereTheFastestWillDo)
+TEST(RateSearch, SaysThatAnyRateWillDoOnlyWhereAllHaveBeenTried)
 {
   const Search found = search([](double rate) { return 10.0 * rate; });
   EXPECT_EQ(found.advice.verdict, Verdict::any_rate);
   EXPECT_DOUBLE_EQ(found.advice.rate_rad_per_s, 0.032);
+  EXPECT_EQ(found.advice.slowest_rad_per_s, 0.0);
   EXPECT_DOUBLE_EQ(found.advice.utilisation, 0.32);
-  EXPECT_EQ(found.tried.size(), 1u);
+  EXPECT_EQ(found.tried.size(), 4u);
+}
+
+TEST(RateSearch, AllowsWhatHasBeenTriedSoFar)
+{
+  RateSearch search(settings);
+  EXPECT_EQ(search.advice().verdict, Verdict::none);
+  search.add(1.0);
+  EXPECT_EQ(search.advice().verdict, Verdict::none);  // slower may do
+  search.add(0.5);
+  EXPECT_EQ(search.advice().verdict, Verdict::rate);
+  EXPECT_DOUBLE_EQ(search.advice().rate_rad_per_s, 0.016);
+  EXPECT_DOUBLE_EQ(search.advice().slowest_rad_per_s, 0.016);
+  search.add(0.4);
+  EXPECT_DOUBLE_EQ(search.advice().slowest_rad_per_s, 0.008);
+  search.add(0.3);
+  EXPECT_EQ(search.advice().slowest_rad_per_s, 0.0);
+}
+
+TEST(RateSearch, SaysThatSlowerIsWorseWhereItIs)
+{
+  const Search found = search([](double rate) { return 0.016 / rate; });
+  EXPECT_EQ(found.advice.verdict, Verdict::rate);
+  EXPECT_DOUBLE_EQ(found.advice.rate_rad_per_s, 0.032);
+  EXPECT_DOUBLE_EQ(found.advice.slowest_rad_per_s, 0.032);
+  EXPECT_EQ(found.tried.size(), 4u);  // nothing faster is to be looked for
 }
 
 TEST(RateSearch, SaysSoWhereNoneWillDo)
@@ -55,6 +81,7 @@ TEST(RateSearch, FindsTheFasterPartWhereSlowIsWorseToo)
   const Search found = search([](double rate) { return 0.5 + std::abs(std::log(rate / 0.016)); });
   EXPECT_EQ(found.advice.verdict, Verdict::rate);
   EXPECT_GT(found.advice.rate_rad_per_s, 0.016);
+  EXPECT_NEAR(found.advice.slowest_rad_per_s, 0.016, 1e-12);
   EXPECT_LT(found.advice.utilisation, 0.9);
 }
 
@@ -64,6 +91,7 @@ RC_GTEST_PROP(RateSearch, OfUtilisationThatGrowsWithTheRateComesWithinOneStepOfT
   const Search found = search([&](double rate) { return 0.9 * rate / fastest_good; });
   RC_ASSERT(found.advice.verdict == Verdict::rate);
   RC_ASSERT(found.advice.rate_rad_per_s < fastest_good);
+  RC_ASSERT(found.advice.slowest_rad_per_s == 0.0);
   // A step of the ladder is a factor 2, halved three times.
   RC_ASSERT(found.advice.rate_rad_per_s * std::pow(2.0, 1.0 / 8.0) * (1.0 + 1e-9) >= fastest_good);
 }

@@ -187,8 +187,12 @@ TEST(Forecaster, KeepsAnEnsembleAndAdvisesARate)
   Forecaster forecaster(scene, settings, std::move(ensemble), received.hooks());
   follow(live, forecaster, 1.5);
   ASSERT_TRUE(serve(live, forecaster, [&] {
-    return !received.ensembles().empty() && received.ensembles().back().advice.verdict != Verdict::none;
+    return !received.ensembles().empty() && received.ensembles().back().advice.verdict == Verdict::any_rate;
   }));
+  bool grew = false;  // before all were tried: what had been tried
+  for (const EnsembleForecast& told : received.ensembles())
+    grew = grew || (told.advice.verdict == Verdict::rate && told.advice.slowest_rad_per_s > 0.05);
+  EXPECT_TRUE(grew);
   const EnsembleForecast last = received.ensembles().back();
   EXPECT_EQ(last.seed, 7u);
   EXPECT_EQ(last.summary.completed, 3u);

@@ -32,11 +32,11 @@ TEST(LiveEnsemble, FollowsTheLogInPiecesAsOneRunFromItsBeginningWould)
   for (int i = 0; i <= 40; ++i) {
     so_far.add(sample_at(i));
     if (i == 15 || i == 30 || i == 40)
-      members = pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, never);
+      members = pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, 0.25, never);
   }
   EXPECT_GT(pieces.cost_s(), 0.0);
   const std::vector<ensemble::Member> at_once =
-      whole.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, never);
+      whole.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, 0.25, never);
   ASSERT_EQ(members.size(), 3u);
   for (std::size_t i = 0; i < members.size(); ++i) {
     EXPECT_EQ(members[i].ending, ensemble::Ending::completed) << members[i].why;
@@ -47,7 +47,7 @@ TEST(LiveEnsemble, FollowsTheLogInPiecesAsOneRunFromItsBeginningWould)
 
   pieces.reset();  // another log begins
   const std::vector<ensemble::Member> again =
-      pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, never);
+      pieces.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 8.0, 20.0 }, 0.25, never);
   for (std::size_t i = 0; i < members.size(); ++i)
     EXPECT_EQ(again[i].digest, at_once[i].digest);
 }
@@ -63,10 +63,38 @@ TEST(LiveEnsemble, SaysWhyAMemberIsMissing)
   for (int i = 0; i <= 40; ++i)
     so_far.add(sample_at(i));
   const std::vector<ensemble::Member> members =
-      ensemble.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 4.0, 20.0 }, never);
+      ensemble.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 4.0, 20.0 }, 0.25, never);
   EXPECT_EQ(members[0].ending, ensemble::Ending::failed);
   EXPECT_NE(members[0].why.find("solver stopped"), std::string::npos) << members[0].why;
   EXPECT_EQ(members[1].ending, ensemble::Ending::completed);
+}
+
+TEST(LiveEnsemble, SaysHowHardTheSheetIsPulledAtEachInstantAhead)
+{
+  LiveEnsemble ensemble(plan(4), 1);
+  const scene::SceneDescription scene = coarse_release();
+  const AssumedOpening& opening = planned();
+  barge::OpeningSignal so_far(scene.hull->signal);
+  for (int i = 0; i <= 15; ++i)
+    so_far.add(sample_at(i));
+  const std::vector<ensemble::Member> members =
+      ensemble.run_ahead(so_far, opening.continue_from(so_far, 1.0), { 10.0, 20.0 }, 0.25, never);
+  const TensionBand band = ensemble.tension();
+  ASSERT_EQ(band.time_s.size(), 41u);
+  ASSERT_EQ(band.p90.size(), band.time_s.size());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < band.time_s.size(); ++k) {
+    EXPECT_NEAR(band.time_s[k], so_far.known_until_s() + 0.25 * static_cast<double>(k), 1e-9);
+    EXPECT_LE(band.p10[k], band.p50[k]);
+    EXPECT_LE(band.p50[k], band.p90[k]);
+    largest = std::max(largest, band.p90[k]);
+  }
+  // P90 of four members is the largest of them: at its own highest instant that member's own peak, as frames show it.
+  double peak = 0.0;
+  for (const ensemble::Member& member : members)
+    peak = std::max(peak, *member.figures[ensemble::peak_tension_figure()]);
+  EXPECT_LE(largest, peak);
+  EXPECT_GE(largest, 0.5 * peak);
 }
 
 TEST(LiveEnsemble, DoesNotTakeAnOverrideOfWhatIsDrawn)

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geocontainer_mpm/geotextile/sheet.h"
 
@@ -82,6 +84,28 @@ TEST(Rupture, BreaksASegmentForGood)
   EXPECT_EQ(sheet.tension()[3], 0.0);
   stretch_last(0.3);
   EXPECT_EQ(sheet.rupture_energy(), gone) << "it breaks once";
+}
+
+TEST(Rupture, OfASeamIsAtItsOwnTension)
+{
+  SheetParameters p = strip();
+  for (const bool whole : { true, false }) {
+    p.rupture_strain = whole ? std::nullopt : std::optional<double>(0.05);
+    Sheet sheet({ { { 0.0, 0.0 }, { 1.0, 0.0 } }, false }, p);
+    sheet.tear_at(1, 5e4);
+    const auto stretch = [&](double strain) {
+      for (std::size_t i = 0; i < 5; ++i)
+        sheet.nodes().position[0][i] = 0.25 * static_cast<double>(i) * (1.0 + strain);
+      sheet.update_forces();
+    };
+    const double strain = ForceStrain(0.0, woven).strain(5e4);
+    stretch((1.0 - 1e-9) * std::min(strain, p.rupture_strain.value_or(strain)));
+    EXPECT_EQ(sheet.ruptures(), 0U);
+    stretch((1.0 + 1e-9) * std::min(strain, p.rupture_strain.value_or(strain)));
+    EXPECT_EQ(sheet.ruptures(), whole ? 1U : 4U) << "the sheet's own rupture comes first where it is the lower one";
+    EXPECT_EQ(sheet.tension()[1], 0.0);
+    EXPECT_EQ(sheet.tension()[0] > 0.0, whole);
+  }
 }
 
 TEST(Strength, OfASeamAnywhereIsThatOfTheSheetTimesItsEfficiency)

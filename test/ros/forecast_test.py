@@ -70,7 +70,7 @@ class ForecastTest(unittest.TestCase):
         self.assertGreater(planned.port[-1], 0.15)  # the log itself stays below 0.04
         self.assertTrue(any(m.stale for m in forecasts.messages), "nothing was withdrawn")
 
-        self.ensemble(ensembles.wait(lambda m: m.advice != ReleaseEnsemble.NONE_ASKED, "advice"))
+        self.ensemble(ensembles.wait(lambda m: m.advice == ReleaseEnsemble.ANY_RATE, "advice"))
         diagnostics.wait_for_state("finished", limit_s=60.0)
         self.assertEqual(diagnostics.finished[1], expected)
 
@@ -97,6 +97,11 @@ class ForecastTest(unittest.TestCase):
         self.assertEqual(message.inputs[0], "hull.friction")
         self.assertEqual(len(message.tension_correlation), len(message.inputs))
         self.assertLessEqual(message.peak_tension.p10, message.peak_tension.p90)
+        self.assertGreater(len(message.stamps), 5)
+        self.assertGreaterEqual(message.stamps[0], message.header.stamp)
+        bands = list(zip(message.tension_p10, message.tension_p50, message.tension_p90))
+        self.assertEqual(len(bands), len(message.stamps))
+        self.assertTrue(all(0.0 <= low <= middle <= high for low, middle, high in bands), bands)
         self.assertEqual(message.advice, ReleaseEnsemble.ANY_RATE)
         self.assertAlmostEqual(message.advised_rate, 0.06)
         self.assertIn("deg/s", message.message)

@@ -104,8 +104,10 @@ def forecast():
 
 def ensemble():
     message = ReleaseEnsemble(members=16, completed=15, hung_up=0.125, ruptured=0.0, advice=ReleaseEnsemble.RATE,
-                              advised_rate=0.0125, advised_utilisation=0.75, message="Slow down")
+                              advised_rate=0.0125, slowest_rate=0.005, advised_utilisation=0.75, message="Slow down")
     message.header.stamp = NOW
+    message.stamps = [NOW + rospy.Duration(i) for i in range(2)]
+    message.tension_p10, message.tension_p50, message.tension_p90 = [1e3, 2e4], [2e3, 3e4], [3e3, 5e4]
     message.peak_tension, message.release_delay = Quantiles(4e4, 5e4, 7e4), Quantiles(38.0, 42.0, math.inf)
     return message
 
@@ -235,9 +237,10 @@ class VesselLinkTest(unittest.TestCase):
                 "forecast.tension.peak": 5e4, "forecast.utilisation.peak": 0.25,
                 "forecast.curve": {"time": [begin, begin + 1, begin + 2], "tension": [1e3, 5e4, 2e4]},
                 "ensemble.members": 15, "ensemble.tension.p10": 4e4, "ensemble.tension.p50": 5e4, "ensemble.tension.p90": 7e4,
+                "ensemble.tension.curve": {"time": [begin, begin + 1], "p10": [1e3, 2e4], "p50": [2e3, 3e4], "p90": [3e3, 5e4]},
                 "ensemble.release.p10": 38.0, "ensemble.release.p50": 42.0, "ensemble.release.p90": None,
                 "ensemble.probability.hung_up": 0.125, "ensemble.probability.ruptured": 0.0, "advice.state": "rate",
-                "advice.rate": 0.0125, "advice.utilisation": 0.75, "advice.message": "Slow down",
+                "advice.rate": 0.0125, "advice.slowest": 0.005, "advice.utilisation": 0.75, "advice.message": "Slow down",
                 "shape": {"y": [-1, 1, 0], "z": [-1, -1, -3], "utilisation": [0.05, 0.1, 0.15]},
                 "hull.section": {"hinge": [0, 0], "y": [1.5, 0, 0, 2.5, 2.5], "z": [-4.3, -4.3, -3.9, -1.3, 0]}}.items():
             recorder.wait(self, PREFIX + path, value)

@@ -195,6 +195,7 @@ geotextiles:
     circle: { center_m: [0, -5], radius_m: 0.15 }
     pretension_n_per_m: 100
     rupture_strain: 0.12
+    seams: { overlap: { along: 0.5, efficiency: 0.25, tears: true } }
     inside_pressure: { pressure_pa: 50, gradient_pa_per_m: 9810, level_m: -4.5, table: [[0, 0], [0.5, 1]] }
     velocity_field: cable
     stiffness_n_per_m: 1.0e5

@@ -168,6 +168,8 @@ const Broken sheets[] = {
     "geotextiles.bag.stiffness_n_per_m", "", "missing; must be a number > 0" },
   { "laid beyond its rupture", "rupture_strain: 0.12", "rupture_strain: 0.0005", "geotextiles.tube.rupture_strain",
     "0.0005", "more than the strain of pretension_n_per_m, 0.001" },
+  { "laid beyond its seam's strength", "efficiency: 0.25, tears", "efficiency: 0.001, tears",
+    "geotextiles.tube.seams.overlap.tears", "true", "its strength, 100 N/m, must be more than pretension_n_per_m" },
   { "too few membrane points", "segment_length_m: 0.05", "segment_length_m: 0.06", "geotextiles.bag.segment_length_m",
     "0.06", "at most 0.05, half a cell, for membrane_points" },
   { "seam at two places", "right: { along: 0.25 }", "right: { along: 0.25, at_m: [0, -5] }",

@@ -4,7 +4,6 @@ was sent, alarms show and clear, silence is seen within three seconds."""
 import json
 import os
 import signal
-import shutil
 import sys
 import threading
 import time
@@ -12,33 +11,12 @@ import unittest
 from datetime import datetime, timezone
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from signalk_server import Probe, Server, eventually, skip  # noqa: E402
+from page_browser import PAGE, WEB, open_browser  # noqa: E402
+from signalk_server import Probe, Server, eventually  # noqa: E402
+from selenium.webdriver.common.by import By  # noqa: E402
 
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.by import By
-except ImportError:
-    skip("there is no python3-selenium")
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-if CHROMIUM is None or DRIVER is None:
-    skip("there is no Chromium (packages chromium, chromium-driver)")
-
-PROGRAM, WEB = sys.argv.pop(1), sys.argv.pop(1)
+PROGRAM = sys.argv.pop(1)
 PREFIX = "cargo.geocontainer"
-
-
-def open_browser(width=1280, height=800):
-    options = Options()
-    options.binary_location = CHROMIUM
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                     f"--window-size={width},{height}", "--hide-scrollbars"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    browser = webdriver.Chrome(service=Service(DRIVER), options=options)
-    browser.set_page_load_timeout(120)
-    return browser
 
 
 def iso(instant):
@@ -55,11 +33,12 @@ def release():
         "forecast.state": "fresh", "forecast.outcome": "released", "forecast.release.instant": iso(now + 1800.4),
         "forecast.tension.peak": 61500.0, "forecast.utilisation.peak": 0.3075,
         "forecast.curve": {"time": [round(now, 3), round(now + 30.0, 3)], "tension": [41000.0, 61500.0]},
-        "ensemble.tension.p10": 55000.0, "ensemble.tension.p90": 74000.0,
+        "ensemble.tension.curve": {"time": [round(now, 3), round(now + 30.0, 3)], "p10": [40000.0, 55000.0],
+                                   "p50": [41000.0, 60000.0], "p90": [43000.0, 74000.0]},
         "ensemble.utilisation.p10": 0.275, "ensemble.utilisation.p90": 0.37,
         "ensemble.release.p10": 38.2, "ensemble.release.p90": 55.3,
         "ensemble.probability.hung_up": 0.0625, "ensemble.probability.ruptured": 0.0,
-        "advice.state": "rate", "advice.rate": 0.0139626, "advice.message": "At this rate nine of ten stay below 80 %",
+        "advice.state": "rate", "advice.rate": 0.0139626, "advice.slowest": 0.0, "advice.message": "At this rate nine of ten stay below 80 %",
         "shape": {"y": [-1.0, 1.0, 1.5, 0.0, -1.5], "z": [-1.0, -1.0, -3.0, -5.0, -3.0],
                   "utilisation": [0.1, 0.2, 0.3, 0.2, 0.1]},
         "hull.section": {"y": [1.5, 0, 0, 2.5, 2.5], "z": [-4.3, -4.3, -3.9, -1.3, 0], "hinge": [0, 0]},
@@ -116,7 +95,7 @@ class PageTest(unittest.TestCase):
         self.open_hosted()
 
     def open_hosted(self):
-        self.browser.get(f"http://127.0.0.1:{self.server.port}/geocontainer-superintendent/")
+        self.browser.get(PAGE.format(port=self.server.port))
 
     def text(self, identifier):
         return self.browser.find_element(By.ID, identifier).get_attribute("textContent")
@@ -185,6 +164,10 @@ class PageTest(unittest.TestCase):
         self.shows("port", "17.2°")
         self.sender.change("utilisation.peak", None)
         self.shows("load-now", "–")
+        self.sender.change("advice.slowest", 0.00698132)
+        self.shows("advice-words", "Open at 0.40° to 0.80°/s")
+        self.sender.change("advice.slowest", self.values["advice.rate"])
+        self.shows("advice-words", "Open at 0.80°/s")
         self.sender.change("advice.state", "no_rate")
         self.shows("advice-words", "No opening speed keeps it safe")
         self.sender.change("advice.state", "none")

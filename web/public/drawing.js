@@ -68,7 +68,7 @@ const PAST_S = 60
 const AHEAD_S = 60
 
 /**
- * @param chart {now (s), history [[s, N/m]], curve [[s, N/m]], band [p10, p90] or null, limits [[N/m, class]],
+ * @param chart {now (s), history [[s, N/m]], curve [[s, N/m]], band [[s, p10, p90]], limits [[N/m, class]],
  *   release (s) or null}
  */
 function drawChart (svg, chart) {
@@ -76,7 +76,10 @@ function drawChart (svg, chart) {
   if (box.width < 50 || box.height < 50) return
   const size = parseFloat(getComputedStyle(document.documentElement).fontSize)
   const [left, right, top, below] = [3.2 * size, box.width - 0.5 * size, 1.1 * size, box.height - 1.4 * size]
-  const known = [...chart.history, ...chart.curve].map(p => p[1]).concat(chart.band || [], chart.limits.map(l => l[0]))
+  const inSight = p => p[0] >= chart.now && p[0] <= chart.now + AHEAD_S
+  const ahead = chart.curve.filter(inSight)
+  const band = chart.band.filter(inSight)
+  const known = [...chart.history, ...ahead].map(p => p[1]).concat(band.map(p => p[2]), chart.limits.map(l => l[0]))
   const highest = 1.08 * Math.max(1000, ...known)
   const x = t => left + (right - left) * (t - chart.now + PAST_S) / (PAST_S + AHEAD_S)
   const y = tension => below - (below - top) * tension / highest
@@ -88,10 +91,11 @@ function drawChart (svg, chart) {
     `<polyline points="${pointList(points.map(p => [x(p[0]), y(p[1])]))}" fill="none" ${style}/>`
   const parts = []
   const now = x(chart.now)
-  if (chart.band) {
-    parts.push(`<rect x="${fixed(now)}" y="${fixed(y(chart.band[1]))}" width="${fixed(right - now)}" ` +
-      `height="${fixed(Math.max(2, y(chart.band[0]) - y(chart.band[1])))}" fill="var(--band)"/>`)
-    parts.push(label(right - 4, y(chart.band[1]) + size, 'likely highest pull', 'end'))
+  if (band.length > 1) {
+    const edge = [...band.map(p => [x(p[0]), y(p[2])]), ...band.map(p => [x(p[0]), y(p[1])]).reverse()]
+    parts.push(`<polygon points="${pointList(edge)}" fill="var(--band)"/>`)
+    const crest = band.reduce((a, b) => (b[2] > a[2] ? b : a))
+    parts.push(label(x(crest[0]) + 6, y(crest[2]) + size, 'likely pull', 'start'))
   }
   for (const [tension, kind] of chart.limits) {
     const colour = kind === 'alarm' ? 'var(--alarm)' : 'var(--warn)'
@@ -113,7 +117,6 @@ function drawChart (svg, chart) {
     parts.push(line(out, top, out, below, 'stroke="var(--forecast)" stroke-width="3" stroke-dasharray="4 6"'))
     parts.push(label(out + 6, (top + below) / 2, 'out', 'start'))
   }
-  const ahead = chart.curve.filter(p => p[0] >= chart.now && p[0] <= chart.now + AHEAD_S)
   parts.push(curve(ahead, 'stroke="var(--forecast)" stroke-width="4" stroke-dasharray="12 6"'))
   parts.push(curve(chart.history, 'stroke="var(--ink)" stroke-width="4"'))
   svg.setAttribute('viewBox', `0 0 ${fixed(box.width)} ${fixed(box.height)}`)

@@ -117,11 +117,12 @@ function showLoad (read, zones) {
 
 function showAdvice (read) {
   const advice = read.value('release.state') === 'released' ? null : read.recent('advice.state', OLD_ENSEMBLE)
-  const rate = read.recent('advice.rate', OLD_ENSEMBLE)
+  const [rate, slowest] = ['rate', 'slowest'].map(name => read.recent(`advice.${name}`, OLD_ENSEMBLE))
+  const both = slowest === rate ? `Open at ${degrees(rate, 2)}/s` : `Open at ${degrees(slowest, 2)} to ${degrees(rate, 2)}/s`
   element('advice').classList.toggle('alarm', advice === 'no_rate')
   const words = {
     any_rate: 'Any opening speed is safe',
-    rate: isNumber(rate) ? `Open no faster than ${degrees(rate, 2)}/s` : 'No advice',
+    rate: !isNumber(rate) ? 'No advice' : slowest > 0 ? both : `Open no faster than ${degrees(rate, 2)}/s`,
     no_rate: 'No opening speed keeps it safe'
   }
   show('advice-words', words[advice] || 'No advice', advice === 'rate' ? rate : null)
@@ -134,7 +135,7 @@ function showPull (read, zones) {
   const use = read.value('utilisation.peak')
   show('pull-now', isNumber(tension) ? `now ${kilo(tension)} · highest ${kilo(peak)}` : '', tension)
   const curve = columns(read.recent('forecast.curve', OLD_FORECAST), ['time', 'tension'])
-  const band = ['p10', 'p90'].map(p => read.recent(`ensemble.tension.${p}`, OLD_ENSEMBLE))
+  const band = columns(read.recent('ensemble.tension.curve', OLD_ENSEMBLE), ['time', 'p10', 'p90'])
   const instant = Date.parse(read.recent('forecast.release.instant', OLD_FORECAST)) / 1000
   // The seam's strength is what the peak is a part of.
   const strength = isNumber(peak) && use > 1e-3 ? peak / use : null
@@ -143,7 +144,7 @@ function showPull (read, zones) {
     now: read.now,
     history,
     curve: curve ? curve.time.map((t, i) => [t, curve.tension[i]]) : [],
-    band: band.every(isNumber) ? band : null,
+    band: band ? band.time.map((t, i) => [t, band.p10[i], band.p90[i]]) : [],
     limits,
     release: isNumber(instant) ? instant : null
   })

@@ -27,7 +27,7 @@ namespace geocontainer_mpm::forecast {
 
 struct ForecasterSettings {
   Reach reach;                           ///< of every run ahead
-  double interval_s = 0.25;              ///< between instants of a forecast, s, > 0
+  double interval_s = 0.25;              ///< between instants of a forecast or an ensemble, s, > 0
   double period_s = 5.0;                 ///< wall-clock s after which a forecast is made anew, > 0
   double tolerance_rad = 0.005;          ///< departure that makes a forecast stale, rad, > 0
   double rate_window_s = 2.0;            ///< samples of so long tell the rate, s, > 0
@@ -102,6 +102,7 @@ private:
   std::uint64_t ensemble_run_ = 1;
   EnsembleForecast last_ensemble_;
   std::optional<RateSearch> search_;
+  bool growing_ = false;                             ///< the advice is that of a search which is not done
   bool rate_is_next_ = false;                        ///< of a search, before the next pass
   std::optional<barge::OpeningAngles> searched_at_;  ///< opening of the last search
 

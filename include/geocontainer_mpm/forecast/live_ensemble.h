@@ -28,6 +28,13 @@ struct EnsemblePlan {
 EnsemblePlan draw_members(const std::string& scene, const std::vector<std::string>& overrides,
                           const std::string& distributions, std::size_t members, std::uint64_t seed);
 
+/// Tension over the time ahead: at each instant of what is the largest in a member since the instant before. A member
+/// that has come to its end stays as it was there.
+struct TensionBand {
+  std::vector<double> time_s;         ///< since the start of the log
+  std::vector<double> p10, p50, p90;  ///< N/m, below which a tenth, half and nine tenths of the members lie
+};
+
 /// What an ensemble says.
 struct EnsembleForecast {
   std::uint64_t run = 0;       ///< of the live run it belongs to
@@ -36,6 +43,7 @@ struct EnsembleForecast {
   std::uint64_t seed = 0;
   std::vector<std::string> inputs;  ///< scene keys
   ensemble::Summary summary;
+  TensionBand tension;
   double cost_s = 0.0;  ///< processor time of all members
   Advice advice;
 };
@@ -50,24 +58,29 @@ public:
   void reset();  ///< another log begins
 
   /// Every member follows `so_far` as far as it is known, and from there goes on under `ahead`, which continues it and
-  /// is finished, as far as `reach`. A member that could not be built or had to stop says so in its place.
+  /// is finished, as far as `reach`. A member that could not be built or had to stop says so in its place. Instants of
+  /// tension() are `interval_s` apart.
   std::vector<ensemble::Member> run_ahead(const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
-                                          const Reach& reach, const std::function<bool()>& stop);
-  double cost_s() const { return cost_s_; }  ///< processor time of the last run_ahead(), all threads
+                                          const Reach& reach, double interval_s, const std::function<bool()>& stop);
+  TensionBand tension() const { return tension_; }  ///< of the last run_ahead(), of the members that completed
+  double cost_s() const { return cost_s_; }         ///< processor time of the last run_ahead(), all threads
 
 private:
   struct Follower {
     std::optional<scene::Simulation> run;
-    std::string failed;  ///< why it could not be built or had to stop
+    std::string failed;           ///< why it could not be built or had to stop
+    std::vector<double> tension;  ///< of its last run ahead, by instant, N/m
   };
 
   ensemble::Member member_ahead(std::size_t i, const barge::OpeningSignal& so_far, const barge::OpeningSignal& ahead,
-                                const Reach& reach, const std::function<bool()>& stop);
+                                const Reach& reach, double interval_s, const std::function<bool()>& stop);
+  void find_tension(const std::vector<ensemble::Member>& members, double from_s, double interval_s);
   void follow(std::size_t i, const barge::OpeningSignal& so_far, const std::function<bool()>& stop);
 
   EnsemblePlan plan_;
   int threads_;
   std::vector<Follower> followers_;
+  TensionBand tension_;
   double cost_s_ = 0.0;
 };
 

@@ -63,6 +63,8 @@ public:
   mpm::Particles<3>& nodes() { return nodes_; }
   const mpm::Particles<3>& nodes() const { return nodes_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// A seam across the warp of this triangle: its warp breaks at this tension, N/m > 0, if it does not before.
+  void tear_at(std::size_t triangle, double tension);
   bool closed() const { return closed_; }
   Vec3 node(std::size_t i) const { return { nodes_.position[0][i], nodes_.position[1][i], nodes_.position[2][i] }; }
 
@@ -91,8 +93,8 @@ public:
   /// What the tensions of the last update_forces() store in a time at the nodes' present velocities, W.
   double tension_power() const;
 
-  /// Pieces that have reached the rupture strain; where the first did, m; and the energy that was stored in them, J. A
-  /// broken piece carries nothing from then on; its triangle stays, for contact, pressure and its other yarns.
+  /// Pieces that have reached their rupture strain; where the first did, m; and the energy that was stored in them, J.
+  /// A broken piece carries nothing from then on; its triangle stays, for contact, pressure and its other yarns.
   std::size_t ruptures() const { return ruptures_; }
   const Vec3& rupture_place() const { return rupture_place_; }
   double rupture_energy() const;
@@ -111,7 +113,8 @@ private:
     ForceStrain law;
     mpm::Column b1, b2;  ///< coefficients of nodes 1 and 2, 1/m; that of node 0 is minus their sum
     mpm::Column strain;
-    std::vector<double> tension;  ///< N/m
+    std::vector<double> rupture_strain;  ///< infinite: never
+    std::vector<double> tension;         ///< N/m
     std::vector<char> broken;
   };
 

@@ -64,6 +64,9 @@ public:
 
   mpm::Particles<2>& nodes() { return nodes_; }
   const mpm::Particles<2>& nodes() const { return nodes_; }
+  /// A seam in this segment: it breaks at this tension, N/m > 0, if the sheet does not before. Of membrane points the
+  /// pieces at both of its ends do.
+  void tear_at(std::size_t segment, double tension);
   bool closed() const { return nodes_.size() == segments(); }
   /// 1 if the right side of a closed sheet's segments looks outwards, -1 if their left side; open: 0.
   double outwards() const { return outwards_; }
@@ -100,9 +103,9 @@ public:
   /// the stress power of a body. Of segments 0.
   double stress_power() const;
 
-  /// Pieces, segments or membrane points, that have reached the rupture strain; where the first did, m; and the energy
-  /// that was stored in them, J/m. A broken piece carries nothing from then on; the line of nodes stays, for contact
-  /// and pressure.
+  /// Pieces, segments or membrane points, that have reached their rupture strain; where the first did, m; and the
+  /// energy that was stored in them, J/m. A broken piece carries nothing from then on; the line of nodes stays, for
+  /// contact and pressure.
   std::size_t ruptures() const { return ruptures_; }
   const Vec2& rupture_place() const { return rupture_place_; }
   double rupture_energy() const;
@@ -133,6 +136,7 @@ private:
   double outwards_ = 0.0;    ///< 1 if the right side of a segment looks outwards, -1 if its left side; open: 0
   std::vector<double> rest_length_, tension_;  ///< per segment
   std::vector<double> piece_length_, strain_;  ///< unstretched, m; per piece: segment or membrane point
+  std::vector<double> rupture_strain_;         ///< per piece; infinite: never
   std::vector<char> broken_;                   ///< per piece
   std::size_t ruptures_ = 0;
   Vec2 rupture_place_ = Vec2::Zero();

@@ -206,6 +206,7 @@ struct SeamDescription {
   std::optional<Vec2> at_m;          ///< the segment nearest to this point
   std::optional<double> along;       ///< part of the sheet's length from its first point, [0, 1]
   std::optional<double> efficiency;  ///< its strength over the sheet's, (0, 1]; not given: the sheet's seam_efficiency
+  bool tears = false;                ///< where its tension reaches its strength, it carries nothing from then on
 };
 
 /// Cloth laid in folds along part of a sheet's path. A fold is smaller than what the grid resolves: what is modelled is

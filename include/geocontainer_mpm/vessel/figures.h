@@ -67,10 +67,12 @@ struct EnsembleFigures {
   Stamp stamp;
   double members = unknown;  ///< that have come to their end
   Band peak_tension_n_per_m, peak_utilisation, release_delay_s, final_width_m;
+  Columns tension;  ///< `time` (s since 1970, UTC), `p10`, `p50`, `p90` (N/m) over the time ahead
   double hung_up = unknown, ruptured = unknown;  ///< probabilities
   AdviceState advice = AdviceState::none;
   double advised_rate_rad_per_s = unknown;
-  double advised_utilisation = unknown;  ///< p90 at that rate
+  double slowest_rate_rad_per_s = unknown;  ///< 0: none is too slow
+  double advised_utilisation = unknown;     ///< p90 at that rate
   std::string advice_message;
 };
 
@@ -88,6 +90,9 @@ Columns thin_outline(const std::vector<double>& y, const std::vector<double>& z,
                      const std::vector<double>& utilisation);
 /// As many stretches of a curve as may be, of each the point of largest tension: a peak stays. First and last are kept.
 Columns thin_curve(const std::vector<double>& time, const std::vector<double>& tension);
+/// As many stretches of curves that share their instants as may be; each has the time of its last one, and of each
+/// curve the largest value: a peak stays. `curves` must be as long as `time`.
+Columns thin_band(const std::vector<double>& time, const Columns& curves);
 
 /// A Signal K notification.
 struct Notice {
