@@ -172,8 +172,10 @@ def main():
     print(f"{len(fresh)} forecasts, cost {percentile([r['cost_s'] for r in fresh], 0.5):.2f} s median; "
           f"ensembles at {[round(t - begun, 1) for t, _ in refreshed]}, intervals at most {max(gaps, default=math.nan):.1f} s")
     for t, m in ensembles:
-        print(f"  {t - begun:5.1f} s: {m.completed}/{m.members} release in {m.release_delay.p10:.1f} {m.release_delay.p50:.1f} "
-              f"{m.release_delay.p90:.1f} s, peak {m.peak_tension.p10/1e3:.0f} {m.peak_tension.p50/1e3:.0f} "
+        release_at = [m.header.stamp.to_sec() - begun + delay
+                      for delay in (m.release_delay.p10, m.release_delay.p50, m.release_delay.p90)]
+        print(f"  {t - begun:5.1f} s: {m.completed}/{m.members} release at {release_at[0]:.1f} {release_at[1]:.1f} "
+              f"{release_at[2]:.1f} s, peak {m.peak_tension.p10/1e3:.0f} {m.peak_tension.p50/1e3:.0f} "
               f"{m.peak_tension.p90/1e3:.0f} cost {m.cost:.1f} s; {m.message}")
     print(f"node: {cpu[0]:.1f} s user, {cpu[1]:.1f} s system")
 

@@ -40,6 +40,7 @@ Advice RateSearch::advice() const
 {
   Advice advice;
   advice.utilisation_limit = settings_.utilisation_limit;
+  advice.complete = !next_;
   const bool all_tried = static_cast<int>(trials_.size()) >= settings_.ladder;
   const std::size_t good = fastest_good();
   if (good == trials_.size()) {

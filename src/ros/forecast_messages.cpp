@@ -105,15 +105,18 @@ std::string rates(const forecast::Advice& advice)
   const double fastest = advice.rate_rad_per_s * degrees_per_radian;
   const double slowest = advice.slowest_rad_per_s * degrees_per_radian;
   if (slowest == 0.0)
-    return fmt::format("at most {:.2f} deg/s", fastest);
-  return slowest == fastest ? fmt::format("{:.2f} deg/s, not slower,", fastest)
-                            : fmt::format("{:.2f} to {:.2f} deg/s, not slower,", slowest, fastest);
+    return fmt::format("open with at most {:.2f} deg/s for each half", fastest);
+  const std::string span =
+      slowest == fastest ? fmt::format("{:.2f}", fastest) : fmt::format("{:.2f} to {:.2f}", slowest, fastest);
+  return advice.complete ? fmt::format("open with {} deg/s for each half, not slower", span)
+                         : fmt::format("{} deg/s for each half will do, other rates are being tried", span);
 }
 
 void add_advice(const forecast::Advice& advice, ReleaseEnsemble& message)
 {
   message.advised_rate = advice.rate_rad_per_s;
   message.slowest_rate = advice.slowest_rad_per_s;
+  message.advice_complete = advice.complete;
   message.advised_utilisation = advice.utilisation;
   message.utilisation_limit = advice.utilisation_limit;
   const double rate = advice.rate_rad_per_s * degrees_per_radian;
@@ -127,7 +130,7 @@ void add_advice(const forecast::Advice& advice, ReleaseEnsemble& message)
       return;
     case Verdict::rate:
       message.advice = ReleaseEnsemble::RATE;
-      message.message += "; open with " + rates(advice) + " for each half";
+      message.message += "; " + rates(advice);
       return;
     case Verdict::no_rate:
       message.advice = ReleaseEnsemble::NO_RATE;

@@ -47,6 +47,20 @@ vessel::Band to_band(const Quantiles& quantiles)
   return { quantiles.p10, quantiles.p50, quantiles.p90 };
 }
 
+vessel::AdviceState to_advice_state(const ReleaseEnsemble& ensemble)
+{
+  switch (ensemble.advice) {
+    case ReleaseEnsemble::ANY_RATE:
+      return vessel::AdviceState::any_rate;
+    case ReleaseEnsemble::RATE:
+      return ensemble.advice_complete != 0 ? vessel::AdviceState::rate : vessel::AdviceState::rate_so_far;
+    case ReleaseEnsemble::NO_RATE:
+      return vessel::AdviceState::no_rate;
+    default:
+      return vessel::AdviceState::none;
+  }
+}
+
 std::vector<double> seconds(const std::vector<ros::Time>& stamps)
 {
   std::vector<double> times;
@@ -134,10 +148,7 @@ vessel::EnsembleFigures to_figures(const ReleaseEnsemble& ensemble)
         { { "p10", ensemble.tension_p10 }, { "p50", ensemble.tension_p50 }, { "p90", ensemble.tension_p90 } });
   figures.hung_up = ensemble.hung_up;
   figures.ruptured = ensemble.ruptured;
-  figures.advice = ensemble.advice == ReleaseEnsemble::ANY_RATE  ? vessel::AdviceState::any_rate
-                   : ensemble.advice == ReleaseEnsemble::RATE    ? vessel::AdviceState::rate
-                   : ensemble.advice == ReleaseEnsemble::NO_RATE ? vessel::AdviceState::no_rate
-                                                                 : vessel::AdviceState::none;
+  figures.advice = to_advice_state(ensemble);
   figures.advised_rate_rad_per_s = ensemble.advised_rate;
   figures.slowest_rate_rad_per_s = ensemble.slowest_rate;
   figures.advised_utilisation = ensemble.advised_utilisation;

@@ -24,7 +24,7 @@ using Section = const SectionFigures&;
 
 Value advised(Ensemble e, double figure)
 {
-  return e.advice == AdviceState::rate ? known(figure) : Value();
+  return e.advice == AdviceState::rate || e.advice == AdviceState::rate_so_far ? known(figure) : Value();
 }
 
 }  // namespace
@@ -53,6 +53,8 @@ const char* to_string(AdviceState advice)
       return "any_rate";
     case AdviceState::rate:
       return "rate";
+    case AdviceState::rate_so_far:
+      return "rate_so_far";
     case AdviceState::no_rate:
       return "no_rate";
     case AdviceState::none:
@@ -150,7 +152,7 @@ const std::vector<Figure<EnsembleFigures>>& ensemble_figures()
       [](Ensemble e) { return known(e.hung_up); } },
     { "ensemble.probability.ruptured", "ratio", "Part of the runs in which sheet or seam tears", false,
       [](Ensemble e) { return known(e.ruptured); } },
-    { "advice.state", "", "none, any_rate, rate or no_rate", false,
+    { "advice.state", "", "none, any_rate, rate, rate_so_far (others are being tried) or no_rate", false,
       [](Ensemble e) { return Value(to_string(e.advice)); } },
     { "advice.rate", "rad/s", "Fastest constant opening rate of each half that keeps the limit; null without", false,
       [](Ensemble e) { return advised(e, e.advised_rate_rad_per_s); } },

@@ -28,6 +28,7 @@ Search search(const std::function<double(double)>& utilisation)
     search.add(utilisation(*rate));
   }
   result.advice = search.advice();
+  EXPECT_TRUE(result.advice.complete);
   return result;
 }
 
@@ -49,6 +50,7 @@ TEST(RateSearch, AllowsWhatHasBeenTriedSoFar)
   EXPECT_EQ(search.advice().verdict, Verdict::none);  // slower may do
   search.add(0.5);
   EXPECT_EQ(search.advice().verdict, Verdict::rate);
+  EXPECT_FALSE(search.advice().complete);
   EXPECT_DOUBLE_EQ(search.advice().rate_rad_per_s, 0.016);
   EXPECT_DOUBLE_EQ(search.advice().slowest_rad_per_s, 0.016);
   search.add(0.4);

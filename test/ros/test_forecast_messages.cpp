@@ -124,7 +124,7 @@ TEST(EnsembleMessage, CarriesQuantilesFromNowOnAndWhatMatters)
   EXPECT_EQ(message.advice, ReleaseEnsemble::NONE_ASKED);
 
   ensemble.tension = { { 7.0, 7.25 }, { 1e3, 2e3 }, { 3e3, 4e3 }, { 5e3, 6e3 } };
-  ensemble.advice = { forecast::Verdict::rate, 0.01, 0.0, 0.85, 0.9 };
+  ensemble.advice = { forecast::Verdict::rate, 0.01, 0.0, true, 0.85, 0.9 };
   message = to_release_ensemble(ensemble);
   EXPECT_EQ(message.advice, ReleaseEnsemble::RATE);
   EXPECT_NE(message.message.find("at most 0.57 deg/s"), std::string::npos) << message.message;
@@ -135,7 +135,11 @@ TEST(EnsembleMessage, CarriesQuantilesFromNowOnAndWhatMatters)
   ensemble.advice.slowest_rad_per_s = 0.005;
   message = to_release_ensemble(ensemble);
   EXPECT_EQ(message.slowest_rate, 0.005);
-  EXPECT_NE(message.message.find("0.29 to 0.57 deg/s"), std::string::npos) << message.message;
+  EXPECT_NE(message.message.find("0.29 to 0.57 deg/s for each half, not slower"), std::string::npos) << message.message;
+  ensemble.advice.complete = false;
+  message = to_release_ensemble(ensemble);
+  EXPECT_FALSE(message.advice_complete);
+  EXPECT_NE(message.message.find("0.29 to 0.57 deg/s for each half will do"), std::string::npos) << message.message;
   ensemble.advice.verdict = forecast::Verdict::no_rate;
   EXPECT_NE(to_release_ensemble(ensemble).message.find("no opening rate"), std::string::npos);
 }

@@ -104,7 +104,7 @@ def forecast():
 
 def ensemble():
     message = ReleaseEnsemble(members=16, completed=15, hung_up=0.125, ruptured=0.0, advice=ReleaseEnsemble.RATE,
-                              advised_rate=0.0125, slowest_rate=0.005, advised_utilisation=0.75, message="Slow down")
+                              advised_rate=0.0125, slowest_rate=0.005, advice_complete=True, advised_utilisation=0.75, message="Slow down")
     message.header.stamp = NOW
     message.stamps = [NOW + rospy.Duration(i) for i in range(2)]
     message.tension_p10, message.tension_p50, message.tension_p90 = [1e3, 2e4], [2e3, 3e4], [3e3, 5e4]

@@ -168,6 +168,8 @@ class PageTest(unittest.TestCase):
         self.shows("advice-words", "Open at 0.40° to 0.80°/s")
         self.sender.change("advice.slowest", self.values["advice.rate"])
         self.shows("advice-words", "Open at 0.80°/s")
+        self.sender.change("advice.state", "rate_so_far")
+        self.shows("advice-words", "0.80°/s is safe")
         self.sender.change("advice.state", "no_rate")
         self.shows("advice-words", "No opening speed keeps it safe")
         self.sender.change("advice.state", "none")

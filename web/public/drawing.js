@@ -94,8 +94,10 @@ function drawChart (svg, chart) {
   if (band.length > 1) {
     const edge = [...band.map(p => [x(p[0]), y(p[2])]), ...band.map(p => [x(p[0]), y(p[1])]).reverse()]
     parts.push(`<polygon points="${pointList(edge)}" fill="var(--band)"/>`)
-    const crest = band.reduce((a, b) => (b[2] > a[2] ? b : a))
-    parts.push(label(x(crest[0]) + 6, y(crest[2]) + size, 'likely pull', 'start'))
+    const last = band[band.length - 1]
+    const beside = x(last[0]) < right - 6 * size
+    parts.push(label(beside ? x(last[0]) + 6 : right - 4, y(last[2]) + (beside ? 0.8 : -0.3) * size, 'likely pull',
+      beside ? 'start' : 'end'))
   }
   for (const [tension, kind] of chart.limits) {
     const colour = kind === 'alarm' ? 'var(--alarm)' : 'var(--warn)'

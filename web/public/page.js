@@ -118,14 +118,15 @@ function showLoad (read, zones) {
 function showAdvice (read) {
   const advice = read.value('release.state') === 'released' ? null : read.recent('advice.state', OLD_ENSEMBLE)
   const [rate, slowest] = ['rate', 'slowest'].map(name => read.recent(`advice.${name}`, OLD_ENSEMBLE))
-  const both = slowest === rate ? `Open at ${degrees(rate, 2)}/s` : `Open at ${degrees(slowest, 2)} to ${degrees(rate, 2)}/s`
+  const both = slowest === rate ? `${degrees(rate, 2)}/s` : `${degrees(slowest, 2)} to ${degrees(rate, 2)}/s`
   element('advice').classList.toggle('alarm', advice === 'no_rate')
   const words = {
     any_rate: 'Any opening speed is safe',
-    rate: !isNumber(rate) ? 'No advice' : slowest > 0 ? both : `Open no faster than ${degrees(rate, 2)}/s`,
+    rate: !isNumber(rate) ? 'No advice' : slowest > 0 ? `Open at ${both}` : `Open no faster than ${degrees(rate, 2)}/s`,
+    rate_so_far: isNumber(rate) ? `${both} is safe` : 'No advice',
     no_rate: 'No opening speed keeps it safe'
   }
-  show('advice-words', words[advice] || 'No advice', advice === 'rate' ? rate : null)
+  show('advice-words', words[advice] || 'No advice', words[advice] && isNumber(rate) ? rate : null)
   show('advice-message', words[advice] ? read.value('advice.message') || '' : '')
 }
 

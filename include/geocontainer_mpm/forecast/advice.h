@@ -27,6 +27,7 @@ struct Advice {
   double rate_rad_per_s = 0.0;  ///< the fastest that will do, of those that were tried
   /// Rates below this one will not do, or have not been tried yet; 0: they will, as far as was tried.
   double slowest_rad_per_s = 0.0;
+  bool complete = false;     ///< all rates that are to be tried have been
   double utilisation = 0.0;  ///< at the fastest that will do; no_rate: the least that was found
   double utilisation_limit = 0.0;
 };

@@ -59,7 +59,7 @@ struct Band {
   double p10 = unknown, p50 = unknown, p90 = unknown;
 };
 
-enum class AdviceState { none, any_rate, rate, no_rate };
+enum class AdviceState { none, any_rate, rate, rate_so_far, no_rate };
 const char* to_string(AdviceState advice);
 
 /// The newest ensemble, and the advice drawn from it.
