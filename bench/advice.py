@@ -27,7 +27,6 @@ sys.path.insert(0, os.path.join(ROOT, "script"))
 from record_file import Record  # noqa: E402
 from record_section import BLACK, RED, STYLE, draw_geotextile, draw_hull, draw_sand, draw_surfaces, view  # noqa: E402
 
-FULL_RAD = 0.365
 SEAM_EFFICIENCY = 0.265  # of 200 kN/m: 53
 ALONG = 0.13  # of the sheet's length from the middle of its bottom: 2.4 m, where the lips squeeze it
 CELLS_M, MEMBERS_CELLS_M = 0.2, 0.3
@@ -97,7 +96,7 @@ def ask_for_advice(scene, forecast, distributions):
     rospy.Subscriber("release_ensemble", ReleaseEnsemble,
                      lambda m: advised.append(m) if m.advice != ReleaseEnsemble.NONE_ASKED else None, queue_size=100)
     opening = rospy.Publisher("hull_opening", HullOpening, queue_size=10)
-    while opening.get_num_connections() == 0:
+    while opening.get_num_connections() == 0 and launched.poll() is None:
         time.sleep(0.1)
     began = time.monotonic()
     while not advised and time.monotonic() - began < 600.0 and launched.poll() is None:
@@ -119,7 +118,8 @@ def logged_opening():
 
 
 def advised_opening(rate):
-    return [0.0, CLOSED_S, CLOSED_S + FULL_RAD / rate], [0.0, 0.0, FULL_RAD]
+    full_rad = logged_opening()[1][-1]
+    return [0.0, CLOSED_S, CLOSED_S + full_rad / rate], [0.0, 0.0, full_rad]
 
 
 def release(program, scene, folder, name, opening):
@@ -190,7 +190,8 @@ def main():
         for name, summary, record in runs:
             print(f"{name}: {summary['outcome']} at {summary['release_time_s']} s, seams up to {seam_tension(record).max():.1f} kN/m, "
                   f"utilisation {summary['peak_utilisation_seam']:.2f}, torn: {json.dumps(summary.get('ruptured'))}")
-        picture(os.path.join(options.out, "advice.png"), runs, 200.0 * SEAM_EFFICIENCY)
+        strength = runs[0][2].frames[0]["geotextile"].attrs["seam_strength_n_per_m"][0] / 1e3
+        picture(os.path.join(options.out, "advice.png"), runs, strength)
 
 
 if __name__ == "__main__":

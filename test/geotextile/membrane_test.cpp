@@ -330,26 +330,6 @@ TEST(Membrane, BreaksOnceAndLosesWhatWasStored)
   EXPECT_EQ(strip.ruptures(), 2U);
 }
 
-TEST(Membrane, TearsAtASeamAcrossItsWarpAlone)
-{
-  const SheetLayout line{ { { 0.0, 0.0 }, { 1.0, 0.0 } }, false };
-  Membrane strip(wrap(line, { 0.0, 0.25 }, {}, 0.25), parameters());
-  const double tension = 0.05 * 1.1e6;
-  strip.tear_at(2, tension);
-  strip.tear_at(3, tension);
-  const auto stretch = [&](double strain) {
-    for (std::size_t i = 0; i < 10; ++i)
-      strip.nodes().position[1][i] = 0.25 * static_cast<double>(i % 5) * (1.0 + strain);
-    strip.update_forces();
-  };
-  stretch(0.0499);
-  EXPECT_EQ(strip.ruptures(), 0U);
-  stretch(0.0501);
-  EXPECT_EQ(strip.ruptures(), 2U);
-  for (std::size_t t = 0; t < strip.triangles().size(); ++t)
-    EXPECT_EQ(strip.warp_tension()[t] > 0.0, t != 2 && t != 3) << t;
-}
-
 TEST(Membrane, GaugeIsAMeanOverItsLengthWithinAPanel)
 {
   MembraneParameters p = parameters();

@@ -1,4 +1,4 @@
-// The force-strain law, rupture of segments, and strength of sheet and seams.
+// The force-strain law, rupture of sheets and their seams, and strength of sheet and seams.
 
 #include "geocontainer_mpm/geotextile/strength.h"
 
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geocontainer_mpm/geotextile/membrane.h"
 #include "geocontainer_mpm/geotextile/sheet.h"
 
 namespace geocontainer_mpm::geotextile::testing {
@@ -106,6 +107,31 @@ TEST(Rupture, OfASeamIsAtItsOwnTension)
     EXPECT_EQ(sheet.tension()[1], 0.0);
     EXPECT_EQ(sheet.tension()[0] > 0.0, whole);
   }
+}
+
+TEST(Rupture, OfASeamInSpaceIsAcrossItsWarpAlone)
+{
+  const SheetLayout line{ { { 0.0, 0.0 }, { 1.0, 0.0 } }, false };
+  MembraneParameters p;
+  p.warp_stiffness = 1.1e6;
+  p.weft_stiffness = 0.4e6;
+  p.mass = p.computational_mass = 1.0;
+  p.gauge_length = 0.5;
+  Membrane membrane(wrap(line, { 0.0, 0.25 }, {}, 0.25), p);
+  const double tension = 0.05 * p.warp_stiffness;
+  membrane.tear_at(2, tension);
+  membrane.tear_at(3, tension);
+  const auto stretch = [&](double strain) {
+    for (std::size_t i = 0; i < 10; ++i)
+      membrane.nodes().position[1][i] = 0.25 * static_cast<double>(i % 5) * (1.0 + strain);
+    membrane.update_forces();
+  };
+  stretch(0.0499);
+  EXPECT_EQ(membrane.ruptures(), 0U);
+  stretch(0.0501);
+  EXPECT_EQ(membrane.ruptures(), 2U);
+  for (std::size_t t = 0; t < membrane.triangles().size(); ++t)
+    EXPECT_EQ(membrane.warp_tension()[t] > 0.0, t != 2 && t != 3) << t;
 }
 
 TEST(Strength, OfASeamAnywhereIsThatOfTheSheetTimesItsEfficiency)

@@ -117,7 +117,7 @@ def launch(options, server):
 def follow(options, browser, topics, launched):
     """Compares until the container is out, or the log is over. Returns how often each figure was found right; ends the
     program where one is not: the link sends what it hears at once, so that the page shows nothing that was not said."""
-    found, pictured = {}, options.pictures is None
+    found, ports, pictured = {}, set(), options.pictures is None
     end, before = time.monotonic() + 300.0, None
     while launched.poll() is None and time.monotonic() < end:
         shown, clock, live = browser.execute_script(READ)
@@ -128,6 +128,7 @@ def follow(options, browser, topics, launched):
                 time.sleep(1.0)  # the page was faster than this program's own subscription
                 if not topics.has_said(name, value):
                     sys.exit(f"{name}: the page shows {value!r} at {clock}, which no topic has said")
+        ports.add(shown.get("port"))
         if shown and live:
             sys.exit("a replay is not marked as one")
         now = 0.0 if topics.now is None else topics.now - topics.begun
@@ -147,6 +148,8 @@ def follow(options, browser, topics, launched):
         if shown.get("state") in ("released", "hung_up"):
             break
         time.sleep(0.3)
+    if len(ports) < 5:
+        sys.exit(f"the page stands still: all that it showed of the port half is {ports}")
     return found
 
 

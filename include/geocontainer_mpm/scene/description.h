@@ -200,9 +200,8 @@ struct InsidePressure {
   TimeTable<1> table;  ///< [t, factor]; empty: 1
 };
 
-/// A seam that is named. The slice cuts it in a point of the sheet.
+/// A seam that is named; the slice cuts it in a point. `at_m` or `along` says where, in the sheet as it is laid.
 struct SeamDescription {
-  // Exactly one of these two says where, in the sheet as it is laid.
   std::optional<Vec2> at_m;          ///< the segment nearest to this point
   std::optional<double> along;       ///< part of the sheet's length from its first point, [0, 1]
   std::optional<double> efficiency;  ///< its strength over the sheet's, (0, 1]; not given: the sheet's seam_efficiency
